@@ -1,0 +1,1 @@
+"""The product: command line, server, storage, jobs, viewer."""

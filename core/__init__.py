@@ -1,0 +1,1 @@
+"""The science of EchoRooms: sonar mapping, segmentation, topology and localization."""

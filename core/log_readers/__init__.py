@@ -1,0 +1,1 @@
+"""From bytes to a robot log, one format a file."""

@@ -1,0 +1,1 @@
+"""From an occupancy grid to regions."""
