@@ -1,0 +1,79 @@
+"""Logs: upload, list, report, rename, delete."""
+
+from __future__ import annotations
+
+import asyncio
+from http import HTTPStatus
+from pathlib import Path
+
+from fastapi import APIRouter, Request
+
+from app.api.dependencies import SearchQuery, ServicesDep, SortingDep
+from app.api.form_schema import file_part, form_body, text_part
+from app.api.schemas import LogDetail, LogSummary, NameBody
+from app.api.upload_form import receive_form
+from app.services import Services
+from app.storage.records import LogRecord
+
+router = APIRouter(prefix="/logs", tags=["logs"])
+
+
+@router.post(
+    "",
+    status_code=HTTPStatus.CREATED,
+    summary="Upload a log",
+    openapi_extra=form_body(
+        file=file_part("a log of any supported format, or a zip with a log.yaml"),
+        ring=text_part("a ring preset or the text of a ring file, for logs without geometry"),
+        required=("file",),
+    ),
+)
+async def upload_log(request: Request, services: ServicesDep) -> LogDetail:
+    """Keeps the log and answers with its report; 422 names the line that is wrong."""
+    with services.folder.temporary() as temp:
+        form = await receive_form(request, temp, services.settings.max_upload_bytes)
+        upload = form.file("file")
+        record = await keep_log(services, upload.path, form.fields.get("ring") or None, temp)
+    return await asyncio.to_thread(_detail, services, record)
+
+
+@router.get("", summary="List logs")
+def list_logs(services: ServicesDep, sorting: SortingDep, q: SearchQuery = "") -> list[LogSummary]:
+    """The logs whose name contains every word of `q`, the newest first."""
+    return [LogSummary.of(record) for record in services.logs.search(q, sorting)]
+
+
+@router.get("/{log_id}", summary="One log with its report")
+def get_log(log_id: str, services: ServicesDep) -> LogDetail:
+    """The log and everything that was found when it was read."""
+    return _detail(services, services.logs.get(log_id))
+
+
+@router.patch("/{log_id}", summary="Rename a log")
+def rename_log(log_id: str, body: NameBody, services: ServicesDep) -> LogDetail:
+    """Gives the log another name."""
+    return _detail(services, services.logs.rename(log_id, body.name))
+
+
+@router.delete("/{log_id}", status_code=HTTPStatus.NO_CONTENT, summary="Delete a log")
+def delete_log(log_id: str, services: ServicesDep) -> None:
+    """Removes the log; 409 while models use it."""
+    services.logs.delete(log_id)
+
+
+async def keep_log(services: Services, upload: Path, ring: str | None, temp: Path) -> LogRecord:
+    """Reads a log in a worker and keeps it.
+
+    Raises:
+        LogError, TooLargeError: it cannot be read, and why.
+    """
+    prepared = temp / "log"
+    arguments = {"upload": str(upload), "ring": ring, "out": str(prepared)}
+    async with services.reading_slots:
+        summary = await services.pool.run("read_log", arguments, services.reading_limits)
+    return await asyncio.to_thread(services.logs.add, prepared, summary)
+
+
+def _detail(services: Services, record: LogRecord) -> LogDetail:
+    summary = LogSummary.of(record)
+    return LogDetail(**summary.model_dump(), report=services.logs.report(record.id))

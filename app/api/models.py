@@ -1,0 +1,92 @@
+"""Models: make, list, look at, rename, delete."""
+
+from __future__ import annotations
+
+import asyncio
+from http import HTTPStatus
+
+from fastapi import APIRouter, Response
+
+from app.api.dependencies import SearchQuery, ServicesDep, SortingDep
+from app.api.schemas import (
+    Accepted,
+    LogIdBody,
+    ModelBody,
+    ModelDetail,
+    ModelSummary,
+    NameBody,
+    summary_fields,
+)
+from app.jobs.modelling import continue_model, model_a_log
+from app.services import Services
+from app.storage.model_facts import TOPOLOGY_FILE, read_json
+from app.storage.records import ModelRecord
+
+router = APIRouter(prefix="/models", tags=["models"])
+PROVENANCE_FILE = "provenance.json"
+
+
+@router.post("", status_code=HTTPStatus.ACCEPTED, summary="Model a log")
+async def create_model(body: ModelBody, services: ServicesDep) -> Accepted:
+    """Begins to make a model; the job tells how far it is."""
+    model, job = await model_a_log(services, body.log_id, body.name, body.options())
+    return Accepted(id=model.id, job_id=job.id)
+
+
+@router.post("/{model_id}/logs", status_code=HTTPStatus.ACCEPTED, summary="Go on with another log")
+async def add_log(model_id: str, body: LogIdBody, services: ServicesDep) -> Accepted:
+    """Makes the model again from its logs and one more of the same drive; labels are kept."""
+    job = await continue_model(services, model_id, body.log_id)
+    return Accepted(id=model_id, job_id=job.id)
+
+
+@router.get("", summary="List models")
+def list_models(
+    services: ServicesDep, sorting: SortingDep, q: SearchQuery = ""
+) -> list[ModelSummary]:
+    """The models with every word of `q` in their name or labels, the newest first."""
+    return [ModelSummary.of(record) for record in services.models.search(q, sorting)]
+
+
+@router.get("/{model_id}", summary="One model with its topology")
+def get_model(model_id: str, services: ServicesDep) -> ModelDetail:
+    """Nodes, edges, rooms, status and provenance."""
+    return model_detail(services, services.models.get(model_id))
+
+
+@router.patch("/{model_id}", summary="Rename a model")
+def rename_model(model_id: str, body: NameBody, services: ServicesDep) -> ModelDetail:
+    """Gives the model another name."""
+    return model_detail(services, services.models.rename(model_id, body.name))
+
+
+@router.delete("/{model_id}", status_code=HTTPStatus.NO_CONTENT, summary="Delete a model")
+async def delete_model(model_id: str, services: ServicesDep) -> None:
+    """Removes the model; a job that still makes it is cancelled."""
+    record = await asyncio.to_thread(services.models.get, model_id)
+    if record.job_id is not None:
+        await services.runner.cancel(record.job_id)
+    await asyncio.to_thread(services.models.delete, model_id)
+
+
+@router.get(
+    "/{model_id}/grid.png",
+    summary="The grid as a picture",
+    response_class=Response,
+    responses={200: {"content": {"image/png": {}}}},
+)
+def get_grid_picture(model_id: str, services: ServicesDep) -> Response:
+    """White is free, black occupied, grey unknown; row 0 is the top."""
+    from app.api.grid_picture import grid_png
+
+    return Response(grid_png(services.models.files(model_id)), media_type="image/png")
+
+
+def model_detail(services: Services, record: ModelRecord) -> ModelDetail:
+    """A model as its files tell."""
+    fields = summary_fields(record)
+    if services.models.has_files(record.id):
+        files = services.models.files(record.id)
+        topology = read_json(files / TOPOLOGY_FILE)
+        fields |= topology | {"provenance": read_json(files / PROVENANCE_FILE)}
+    return ModelDetail(**fields)

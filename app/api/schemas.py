@@ -1,0 +1,224 @@
+"""What the API takes and gives."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime
+from typing import Annotated, Any, Literal
+
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+
+from app.jobs.runner import JobView
+from app.storage.records import LogRecord, ModelRecord, Status
+
+MAX_LABEL_LENGTH = 80
+MAX_NAME_LENGTH = 200
+MAX_REGIONS = 1000
+
+
+def _printable(text: str) -> str:
+    if not text.isprintable():
+        raise ValueError("must not hold control characters")
+    return text
+
+
+Name = Annotated[
+    str,
+    Field(min_length=1, max_length=MAX_NAME_LENGTH),
+    AfterValidator(_printable),
+]
+Label = Annotated[str, Field(max_length=MAX_LABEL_LENGTH), AfterValidator(_printable)]
+
+
+class Body(BaseModel):
+    """Base of what is sent: no unknown fields, text without blanks around it."""
+
+    model_config = ConfigDict(extra="forbid", str_strip_whitespace=True, allow_inf_nan=False)
+
+
+class NameBody(Body):
+    """Another name."""
+
+    name: Name
+
+
+class LabelBody(Body):
+    """What a person calls a node or a room; null or nothing takes the label away."""
+
+    label: Label | None
+
+
+class ModellingBody(Body):
+    """How a model is made."""
+
+    mode: Literal["autonomous", "offline"] | None = Field(
+        None, description="default: offline when `regions` is given, else autonomous"
+    )
+    regions: int | None = Field(
+        None, ge=1, le=MAX_REGIONS, strict=True, description="number of regions (offline)"
+    )
+    method: Literal["default", "paper"] = "default"
+
+
+class ModelBody(ModellingBody):
+    """A model to be made from a log."""
+
+    log_id: str = Field(max_length=64)
+    name: Name | None = None
+    mapping: Literal["cemal", "bayes"] = "cemal"
+    odometry: Literal["raw", "calibrated", "corrected"] | None = None
+    resolution: float = Field(0.05, ge=0.01, le=0.5, description="metres per cell")
+
+    def options(self) -> dict[str, Any]:
+        """What `core.pipeline.modeller.ModellingOptions` takes."""
+        given = self.model_dump(exclude={"log_id", "name"}, exclude_none=True)
+        return {"mode": "autonomous" if self.regions is None else "offline"} | given
+
+
+class LogIdBody(Body):
+    """The log to go on with."""
+
+    log_id: str = Field(max_length=64)
+
+
+class LogSummary(BaseModel):
+    """A log in the list."""
+
+    id: str
+    name: str
+    created: datetime
+    scans: int
+    sonars: int
+    duration_s: float
+    distance_m: float
+    size_bytes: int
+
+    @classmethod
+    def of(cls, record: LogRecord) -> LogSummary:
+        """What is told of a stored log."""
+        return cls(**{**vars(record), "created": moment(record.created)})
+
+
+class LogDetail(LogSummary):
+    """A log with its report."""
+
+    report: dict[str, Any]
+
+
+class ModelSummary(BaseModel):
+    """A model in the list."""
+
+    id: str
+    name: str
+    created: datetime
+    updated: datetime
+    status: Status
+    error: str | None
+    job_id: str | None
+    options: dict[str, Any]
+    log_ids: list[str]
+    node_count: int
+    room_count: int
+    area_m2: float
+    labels: list[str]
+    size_bytes: int
+    revision: int = Field(description="grows with every change; 0 until the model is made")
+
+    @classmethod
+    def of(cls, record: ModelRecord) -> ModelSummary:
+        """What is told of a stored model."""
+        return cls(**summary_fields(record))
+
+
+class Node(BaseModel):
+    """A region of the map as a place."""
+
+    id: str
+    region: int
+    label: str | None
+    area_m2: float
+    position: tuple[float, float]
+    convexity: float
+
+
+class Edge(BaseModel):
+    """Where two nodes touch."""
+
+    id: str
+    source: str
+    target: str
+    doorway: tuple[float, float]
+    width_m: float
+
+
+class Room(BaseModel):
+    """A group of adjacent nodes."""
+
+    id: str
+    room: int
+    label: str | None
+    nodes: list[str]
+
+
+class ModelDetail(ModelSummary):
+    """A model with its topology; without nodes until it is made."""
+
+    format: str = "echorooms-topology"
+    version: int = 1
+    nodes: list[Node] = []
+    edges: list[Edge] = []
+    rooms: list[Room] = []
+    provenance: dict[str, Any] = {}
+
+
+class JobDetail(BaseModel):
+    """A job as it is now."""
+
+    id: str
+    kind: str
+    subject_id: str
+    status: Status
+    progress: float = Field(ge=0, le=1)
+    what: str = Field(description="what is being done")
+    error: str | None
+    created: datetime
+    started: datetime | None
+    finished: datetime | None
+
+    @classmethod
+    def of(cls, view: JobView) -> JobDetail:
+        """What is told of a job."""
+        record = view.record
+        return cls(
+            **{
+                **vars(record),
+                "progress": view.progress,
+                "what": view.what,
+                "created": moment(record.created),
+                "started": None if record.started is None else moment(record.started),
+                "finished": None if record.finished is None else moment(record.finished),
+            }
+        )
+
+
+class Accepted(BaseModel):
+    """Work has begun: what will be made, and the job that makes it."""
+
+    id: str
+    job_id: str
+
+
+def summary_fields(record: ModelRecord) -> dict[str, Any]:
+    """The fields of a model's summary."""
+    fields = vars(record) | {
+        "created": moment(record.created),
+        "updated": moment(record.updated),
+        "node_count": record.nodes,
+        "room_count": record.rooms,
+    }
+    del fields["nodes"], fields["rooms"]
+    return fields
+
+
+def moment(seconds: float) -> datetime:
+    """Seconds since the epoch as a time in UTC."""
+    return datetime.fromtimestamp(seconds, UTC)

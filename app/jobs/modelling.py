@@ -1,0 +1,125 @@
+"""Modelling jobs: a worker writes a model folder, the store takes it over when it is whole."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from app.errors import Conflict, NotFound, Unprocessable
+from app.jobs.runner import ActiveJob
+from app.services import Services
+from app.storage.records import JobRecord, ModelRecord, Status
+
+KIND = "model"
+WORKING_SHARE = 0.98
+"""The share of the progress that is the worker's; the rest is for keeping the result."""
+
+
+@dataclass(frozen=True)
+class Modelling:
+    """One modelling job (a `Work`).
+
+    Attributes:
+        task: `model_log` or `model_map`.
+        inputs: the files that the task reads.
+        options: what `core.pipeline.modeller.ModellingOptions` takes.
+        log_ids: the logs that the finished model is made from.
+    """
+
+    services: Services
+    model_id: str
+    task: str
+    inputs: Sequence[Path]
+    options: Mapping[str, Any]
+    log_ids: Sequence[str]
+
+    async def run(self, job: ActiveJob) -> None:
+        """Makes the model."""
+        models, limits = self.services.models, self.services.job_limits
+        await asyncio.to_thread(models.set_status, self.model_id, Status.RUNNING)
+
+        def report(share: float, what: str) -> None:
+            job.report(WORKING_SHARE * share, what)
+
+        with self.services.folder.temporary() as temp:
+            made = temp / "model"
+            arguments = {
+                "inputs": [str(path) for path in self.inputs],
+                "options": dict(self.options),
+                "out": str(made),
+            }
+            facts = await self.services.pool.run(self.task, arguments, limits, report)
+            with job.commit():
+                await asyncio.to_thread(models.publish, self.model_id, made, facts, self.log_ids)
+
+    def ended(self, status: Status, error: str | None) -> None:
+        """Notes on the model how its job ended."""
+        if status is not Status.DONE:
+            self.services.models.set_status(self.model_id, status, error)
+
+
+async def model_a_log(
+    services: Services, log_id: str, name: str | None, options: Mapping[str, Any]
+) -> tuple[ModelRecord, JobRecord]:
+    """A new model of a log, queued.
+
+    Raises:
+        Unprocessable: there is no such log.
+    """
+
+    def begin() -> tuple[ModelRecord, JobRecord]:
+        log = _log(services, log_id)
+        model = services.models.add(name or log.name, options, [log_id])
+        return model, _begin(services, model.id)
+
+    model, job = await asyncio.to_thread(begin)
+    inputs = [services.logs.native_file(log_id)]
+    work = Modelling(services, model.id, "model_log", inputs, options, [log_id])
+    services.runner.submit(job, work)
+    return model, job
+
+
+async def continue_model(services: Services, model_id: str, log_id: str) -> JobRecord:
+    """The model, to be made again from its logs and another one of the same drive, queued.
+
+    Raises:
+        NotFound: there is no such model.
+        Unprocessable: there is no such log, or the model cannot go on with it.
+        Conflict: a job is already at the model.
+    """
+
+    def begin() -> tuple[ModelRecord, JobRecord]:
+        model = services.models.get(model_id)
+        _log(services, log_id)
+        if not model.log_ids:
+            raise Unprocessable("the model was made from a map: it has no drive to go on with")
+        if log_id in model.log_ids:
+            raise Unprocessable("the model already has this log")
+        return model, _begin(services, model_id)
+
+    model, job = await asyncio.to_thread(begin)
+    log_ids = [*model.log_ids, log_id]
+    inputs = [services.logs.native_file(part) for part in log_ids]
+    work = Modelling(services, model_id, "model_log", inputs, model.options, log_ids)
+    services.runner.submit(job, work)
+    return job
+
+
+def _begin(services: Services, model_id: str) -> JobRecord:
+    with services.models.locked():
+        model = services.models.get(model_id)
+        if model.job_id is not None and not model.status.ended:
+            raise Conflict(f"the model {model.name!r} is being made; wait for its job or cancel it")
+        job = services.jobs.add(KIND, model_id)
+        services.models.set_job(model_id, job.id)
+        return job
+
+
+def _log(services: Services, log_id: str) -> Any:
+    try:
+        return services.logs.get(log_id)
+    except NotFound as error:
+        raise Unprocessable(f"log_id: {error.detail}") from error

@@ -1,0 +1,36 @@
+"""Task: model one or more logs of one drive.
+
+Arguments: `inputs` (paths of native logs, in order), `options`, `out` (the model folder to write).
+Result: what the index knows of a model.
+"""
+
+from __future__ import annotations
+
+import functools
+from pathlib import Path
+
+from core.pipeline.modeller import ModellingOptions, model_log
+from core.topology.model_folder import write_model
+
+from app.jobs.tasks import Arguments, Result
+from app.storage.model_facts import facts_of
+from core.log_readers.registry import read_log
+from core.progress import Progress, part_of
+from core.sensing.robot_log import join
+
+READING_SHARE, MODELLING_SHARE = 0.05, 0.95
+
+
+def run(arguments: Arguments, progress: Progress) -> Result:
+    """Makes the model and writes its folder."""
+    out = Path(arguments["out"])
+    progress(0.0, "reading the log")
+    logs = [read_log(Path(path)).log.without_truth() for path in arguments["inputs"]]
+    model = model_log(
+        functools.reduce(join, logs),
+        ModellingOptions(**arguments["options"]),
+        part_of(progress, READING_SHARE, MODELLING_SHARE),
+    )
+    progress(MODELLING_SHARE, "writing the model")
+    write_model(model, out)
+    return facts_of(out)

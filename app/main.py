@@ -1,0 +1,48 @@
+"""The application: everything under one address."""
+
+from __future__ import annotations
+
+import contextlib
+from collections.abc import AsyncIterator
+
+from fastapi import APIRouter, FastAPI
+
+from app.api import health, jobs, labels, logs, models
+from app.api.static_pages import STATIC_FOLDER, StaticPages
+from app.errors import install_error_handlers
+from app.events import ModelEvents
+from app.security import BrowserGuard
+from app.services import open_services
+from app.settings import Settings
+
+DESCRIPTION = "Sonar logs in, maps with named rooms out. All lengths in metres, angles in radians."
+
+
+def create_app(settings: Settings) -> FastAPI:
+    """The app; it touches the data folder only between its start and its end (lifespan)."""
+    events = ModelEvents()
+
+    @contextlib.asynccontextmanager
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        async with open_services(settings, events) as services:
+            app.state.services = services
+            yield
+
+    app = FastAPI(
+        title="EchoRooms",
+        version=health.product_version(),
+        description=DESCRIPTION,
+        lifespan=lifespan,
+        docs_url=None,
+        redoc_url=None,
+    )
+    app.state.events = events
+    app.state.settings = settings
+    install_error_handlers(app)
+    api = APIRouter(prefix="/api")
+    for router in (health.router, logs.router, models.router, labels.router, jobs.router):
+        api.include_router(router)
+    app.include_router(api)
+    app.mount("/", StaticPages(app, STATIC_FOLDER), name="static")
+    app.add_middleware(BrowserGuard, settings=settings)
+    return app

@@ -1,0 +1,1 @@
+"""What lasts: an SQLite index and files under one data folder, behind repositories."""
