@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
 
 from core.geometry import BoolArray, FloatArray, IntArray
 from core.sensing.ring import SonarRing
@@ -29,9 +31,10 @@ class Finding:
     source: str | None = None
 
     @classmethod
-    def at(cls, what: str, lines: Sequence[int], source: str | None = None) -> Finding:
+    def at(cls, what: str, lines: npt.ArrayLike, source: str | None = None) -> Finding:
         """A finding at all of `lines`, of which the first few are named."""
-        return cls(what, len(lines), tuple(int(line) for line in lines[:MAX_PLACES]), source)
+        places = np.asarray(lines, np.int64)
+        return cls(what, len(places), tuple(places[:MAX_PLACES].tolist()), source)
 
 
 @dataclass(frozen=True)
@@ -51,6 +54,7 @@ class DraftLog:
         truth: (N, 3) true poses or None.
         skipped: what was left out while reading.
         notes: what was accepted though it is odd.
+        clock: what was wrong with time stamps that the reader already put in order.
     """
 
     format: str
@@ -65,3 +69,4 @@ class DraftLog:
     truth: FloatArray | None = None
     skipped: tuple[Finding, ...] = ()
     notes: tuple[Finding, ...] = ()
+    clock: tuple[Finding, ...] = ()
