@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from core.geometry import BoolArray
+from core.geometry import BoolArray, FloatArray, wrap_angle
 from core.log_readers.clock import ClockConfig, ordered_time
 from core.log_readers.draft_log import DraftLog, Finding
 from core.log_readers.drive_statistics import (
@@ -44,6 +44,8 @@ def accept(draft: DraftLog, config: AcceptanceConfig = AcceptanceConfig()) -> Lo
     draft = replace(draft, notes=(*draft.notes, *_range_notes(draft, wrong)))
     ranges = usable_ranges(draft.ranges, draft.ring)
     fresh = measured_anew(ranges, config.latch) if draft.fresh is None else draft.fresh
+    if draft.too_close is not None:
+        fresh = fresh & ~draft.too_close
     log = RobotLog(draft.name, draft.ring, draft.t, draft.odometry, ranges, fresh, draft.truth)
     return LoadedLog(log, _report(log, draft, float(wrong.mean()), config))
 
@@ -55,14 +57,23 @@ def _in_order(draft: DraftLog, config: ClockConfig) -> DraftLog:
     return replace(
         draft,
         t=time.t[keep],
-        odometry=draft.odometry[keep],
+        odometry=_wrapped(draft.odometry[keep]),
         ranges=draft.ranges[keep],
         lines=draft.lines[keep],
         fresh=None if draft.fresh is None else draft.fresh[keep],
-        truth=None if draft.truth is None else draft.truth[keep],
+        truth=None if draft.truth is None else _wrapped(draft.truth[keep]),
+        too_close=None if draft.too_close is None else draft.too_close[keep],
         clock=(*draft.clock, *time.changes),
         skipped=(*draft.skipped, *time.skipped),
     )
+
+
+def _wrapped(poses: FloatArray) -> FloatArray:
+    """Poses (N, 3) with headings in [-pi, pi]; those that already are stay to the last bit."""
+    out = poses.copy()
+    turns = np.abs(out[:, 2]) > np.pi
+    out[turns, 2] = wrap_angle(out[turns, 2])
+    return out
 
 
 def _range_notes(draft: DraftLog, wrong: BoolArray) -> list[Finding]:

@@ -55,6 +55,8 @@ class DraftLog:
         skipped: what was left out while reading.
         notes: what was accepted though it is odd.
         clock: what was wrong with time stamps that the reader already put in order.
+        too_close: (N, S) where a sonar said that something is nearer than it can measure; its range is
+            NaN, but that is not "no echo".
     """
 
     format: str
@@ -70,3 +72,4 @@ class DraftLog:
     skipped: tuple[Finding, ...] = ()
     notes: tuple[Finding, ...] = ()
     clock: tuple[Finding, ...] = ()
+    too_close: BoolArray | None = None

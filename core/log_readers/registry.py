@@ -5,16 +5,17 @@ from __future__ import annotations
 from pathlib import Path
 
 from core.errors import LogError
-from core.log_readers import native
+from core.log_readers import delimited_text, native
 from core.log_readers.acceptance import accept
 from core.log_readers.byte_source import LogSource
+from core.log_readers.foreign import unknown
 from core.log_readers.limits import DEFAULT_LIMITS, ReadLimits
 from core.log_readers.loaded_log import LoadedLog
 from core.log_readers.log_format import LogFormat
 from core.progress import Progress, no_progress
 from core.sensing.ring import SonarRing
 
-FORMATS: tuple[LogFormat, ...] = (native.FORMAT,)
+FORMATS: tuple[LogFormat, ...] = (native.FORMAT, delimited_text.FORMAT)
 """Asked in this order. A new format is one file and one entry here."""
 
 
@@ -40,4 +41,4 @@ def read_log(
     for log_format in FORMATS:
         if log_format.matches(source):
             return accept(log_format.read(source, ring, progress))
-    raise LogError("not a robot log that this program knows", source.name)
+    raise LogError(unknown(source), source.name)
