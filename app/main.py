@@ -7,7 +7,7 @@ from collections.abc import AsyncIterator
 
 from fastapi import APIRouter, FastAPI
 
-from app.api import health, jobs, labels, logs, models
+from app.api import docs_page, health, jobs, labels, logs, models
 from app.api.static_pages import STATIC_FOLDER, StaticPages
 from app.errors import install_error_handlers
 from app.events import ModelEvents
@@ -43,6 +43,7 @@ def create_app(settings: Settings) -> FastAPI:
     for router in (health.router, logs.router, models.router, labels.router, jobs.router):
         api.include_router(router)
     app.include_router(api)
+    app.include_router(docs_page.router)
     app.mount("/", StaticPages(app, STATIC_FOLDER), name="static")
     app.add_middleware(BrowserGuard, settings=settings)
     return app

@@ -5,11 +5,13 @@ from __future__ import annotations
 import asyncio
 from http import HTTPStatus
 
-from fastapi import APIRouter, Response
+from fastapi import APIRouter, Request, Response
 
 from app.api.dependencies import SearchQuery, ServicesDep, SortingDep
+from app.api.form_schema import file_part, form_body, text_part
 from app.api.schemas import (
     Accepted,
+    ImportFields,
     LogIdBody,
     ModelBody,
     ModelDetail,
@@ -17,7 +19,8 @@ from app.api.schemas import (
     NameBody,
     summary_fields,
 )
-from app.jobs.modelling import continue_model, model_a_log
+from app.api.upload_form import parse_fields, receive_form
+from app.jobs.modelling import continue_model, model_a_log, model_a_map
 from app.services import Services
 from app.storage.model_facts import TOPOLOGY_FILE, read_json
 from app.storage.records import ModelRecord
@@ -30,6 +33,33 @@ PROVENANCE_FILE = "provenance.json"
 async def create_model(body: ModelBody, services: ServicesDep) -> Accepted:
     """Begins to make a model; the job tells how far it is."""
     model, job = await model_a_log(services, body.log_id, body.name, body.options())
+    return Accepted(id=model.id, job_id=job.id)
+
+
+@router.post(
+    "/import",
+    status_code=HTTPStatus.ACCEPTED,
+    summary="Model a map",
+    openapi_extra=form_body(
+        yaml=file_part("a ROS map_server map.yaml"),
+        image=file_part("its image (PGM or PNG)"),
+        regions=text_part("number of regions; found automatically without it"),
+        method=text_part("default or paper"),
+        name=text_part("what to call the model"),
+        required=("yaml", "image"),
+    ),
+)
+async def import_map(request: Request, services: ServicesDep) -> Accepted:
+    """Begins to cut an existing map into regions; the job tells how far it is."""
+    with services.folder.temporary() as temp:
+        form = await receive_form(request, temp, services.settings.max_upload_bytes)
+        yaml, image, source = form.file("yaml"), form.file("image"), temp / "source"
+        fields = parse_fields(ImportFields, form.fields)
+        arguments = {"yaml": str(yaml.path), "image": str(image.path), "out": str(source)}
+        async with services.reading_slots:
+            await services.pool.run("check_map", arguments, services.reading_limits)
+        name = fields.name or yaml.path.stem
+        model, job = await model_a_map(services, source, name, fields.options())
     return Accepted(id=model.id, job_id=job.id)
 
 

@@ -47,9 +47,11 @@ class LabelBody(Body):
     label: Label | None
 
 
-class ModellingBody(Body):
-    """How a model is made."""
+class ModelBody(Body):
+    """A model to be made from a log."""
 
+    log_id: str = Field(max_length=64)
+    name: Name | None = None
     mode: Literal["autonomous", "offline"] | None = Field(
         None, description="default: offline when `regions` is given, else autonomous"
     )
@@ -57,13 +59,6 @@ class ModellingBody(Body):
         None, ge=1, le=MAX_REGIONS, strict=True, description="number of regions (offline)"
     )
     method: Literal["default", "paper"] = "default"
-
-
-class ModelBody(ModellingBody):
-    """A model to be made from a log."""
-
-    log_id: str = Field(max_length=64)
-    name: Name | None = None
     mapping: Literal["cemal", "bayes"] = "cemal"
     odometry: Literal["raw", "calibrated", "corrected"] | None = None
     resolution: float = Field(0.05, ge=0.01, le=0.5, description="metres per cell")
@@ -72,6 +67,18 @@ class ModelBody(ModellingBody):
         """What `core.pipeline.modeller.ModellingOptions` takes."""
         given = self.model_dump(exclude={"log_id", "name"}, exclude_none=True)
         return {"mode": "autonomous" if self.regions is None else "offline"} | given
+
+
+class ImportFields(Body):
+    """The text fields beside the files of a map."""
+
+    name: Name | None = None
+    regions: int | None = Field(None, ge=1, le=MAX_REGIONS)
+    method: Literal["default", "paper"] = "default"
+
+    def options(self) -> dict[str, Any]:
+        """What `core.pipeline.modeller.ModellingOptions` takes."""
+        return {"mode": "offline"} | self.model_dump(exclude={"name"}, exclude_none=True)
 
 
 class LogIdBody(Body):

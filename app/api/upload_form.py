@@ -4,19 +4,22 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from http import HTTPStatus
 from pathlib import Path
-from typing import IO
+from typing import IO, TypeVar
 
 from fastapi import Request
+from fastapi.exceptions import RequestValidationError
+from pydantic import BaseModel, ValidationError
 from python_multipart.exceptions import FormParserError
 from python_multipart.multipart import MultipartParser, parse_options_header
 
 from app.errors import Problem, TooLarge, Unprocessable
 from app.settings import MEBIBYTE
 
+Fields = TypeVar("Fields", bound=BaseModel)
 MAX_PARTS = 16
 MAX_FIELD_BYTES = 1 << 17
 MAX_NAME_LENGTH = 60
@@ -73,6 +76,19 @@ async def receive_form(request: Request, folder: Path, max_bytes: int) -> Upload
                 pending.clear()
         await asyncio.to_thread(writer.write, bytes(pending))
         return writer.finish()
+
+
+def parse_fields(schema: type[Fields], fields: Mapping[str, str]) -> Fields:
+    """The text fields of a form, checked like a JSON body.
+
+    Raises:
+        RequestValidationError: a field is wrong, or is not one of the form's.
+    """
+    try:
+        return schema.model_validate({name: text for name, text in fields.items() if text})
+    except ValidationError as error:
+        errors = [{**item, "loc": ("body", *item["loc"])} for item in error.errors()]
+        raise RequestValidationError(errors) from error
 
 
 def _boundary(request: Request) -> bytes:

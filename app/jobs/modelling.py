@@ -11,6 +11,7 @@ from typing import Any
 from app.errors import Conflict, NotFound, Unprocessable
 from app.jobs.runner import ActiveJob
 from app.services import Services
+from app.storage.map_source import MAP_YAML
 from app.storage.records import JobRecord, ModelRecord, Status
 
 KIND = "model"
@@ -78,6 +79,26 @@ async def model_a_log(
     model, job = await asyncio.to_thread(begin)
     inputs = [services.logs.native_file(log_id)]
     work = Modelling(services, model.id, "model_log", inputs, options, [log_id])
+    services.runner.submit(job, work)
+    return model, job
+
+
+async def model_a_map(
+    services: Services, source: Path, name: str, options: Mapping[str, Any]
+) -> tuple[ModelRecord, JobRecord]:
+    """A new model of a map that a worker has checked, queued.
+
+    Args:
+        source: the folder with `map.yaml` and its image; it is taken over.
+    """
+
+    def begin() -> tuple[ModelRecord, JobRecord, Path]:
+        model = services.models.add(name, options, [])
+        kept = services.models.add_source(model.id, source)
+        return model, _begin(services, model.id), kept
+
+    model, job, kept = await asyncio.to_thread(begin)
+    work = Modelling(services, model.id, "model_map", [kept / MAP_YAML], options, [])
     services.runner.submit(job, work)
     return model, job
 

@@ -29,6 +29,7 @@ from app.storage.tables import model_logs, models
 
 EDITED_FILES = frozenset({TOPOLOGY_FILE, "rooms.png", "history.jsonl"})
 """What an edit may write; all other files of a revision are shared with the one before."""
+SOURCE_FOLDER = "source"
 SORTINGS = ("name", "created", "updated", "status", "nodes", "rooms", "area_m2", "size_bytes")
 Edit = Callable[[Path], None]
 """Changes the files of `EDITED_FILES` in a model folder."""
@@ -105,6 +106,12 @@ class ModelStore:
     def set_job(self, model_id: str, job_id: str) -> None:
         """Notes the job that makes the model."""
         self._set(model_id, job_id=job_id, status=Status.QUEUED, error=None)
+
+    def add_source(self, model_id: str, prepared: Path) -> Path:
+        """Keeps the files that an imported model is made from; returns their folder."""
+        source = self._place(model_id) / SOURCE_FOLDER
+        self._folder.publish(prepared, source)
+        return source
 
     def set_status(self, model_id: str, status: Status, error: str | None = None) -> None:
         """Notes how far the job is; a model that was whole before stays whole when it fails."""

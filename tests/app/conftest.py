@@ -1,0 +1,115 @@
+"""A server in this process, and small drives to send to it."""
+
+from __future__ import annotations
+
+import gzip
+import json
+import math
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+
+from app.main import create_app
+from app.settings import Settings
+
+LOOPBACK = "http://127.0.0.1:8000"
+ROOM_HALF_M = 2.0
+SONARS = 8
+
+
+def native_log(scans: int = 80, name: str = "square room", start_t: float = 0.0) -> bytes:
+    """A drive along a circle of 1 m in a room of 4 m x 4 m, in the native format."""
+    sonars = [
+        {
+            "x": 0.0,
+            "y": 0.0,
+            "heading": math.remainder(2 * math.pi * i / SONARS, 2 * math.pi),
+            "beam_width": 0.5,
+            "min_range": 0.1,
+            "max_range": 4.0,
+        }
+        for i in range(SONARS)
+    ]
+    header = {
+        "format": "echorooms-log",
+        "version": 1,
+        "name": name,
+        "robot": {"radius": 0.2},
+        "sonars": sonars,
+    }
+    lines = [json.dumps(header)]
+    for i in range(scans):
+        angle = 2 * math.pi * i / scans
+        x, y, heading = math.cos(angle), math.sin(angle), angle + math.pi / 2
+        ranges = [round(_to_wall(x, y, heading + sonar["heading"]), 3) for sonar in sonars]
+        scan = {"t": start_t + 0.25 * i, "odom": [x, y, heading], "ranges": ranges}
+        lines.append(json.dumps(scan))
+    return ("\n".join(lines) + "\n").encode()
+
+
+def _to_wall(x: float, y: float, heading: float) -> float:
+    cos, sin = math.cos(heading), math.sin(heading)
+    along_x = (math.copysign(ROOM_HALF_M, cos) - x) / cos if abs(cos) > 1e-9 else math.inf
+    along_y = (math.copysign(ROOM_HALF_M, sin) - y) / sin if abs(sin) > 1e-9 else math.inf
+    return min(along_x, along_y)
+
+
+@pytest.fixture(scope="session")
+def make_log() -> Callable[..., bytes]:
+    """Makes the bytes of a small native log."""
+    return native_log
+
+
+@pytest.fixture
+def settings(tmp_path: Path) -> Settings:
+    """Settings of a server with an empty data folder."""
+    return Settings(data=tmp_path / "data", max_jobs=2, warm_workers=1, heartbeat_s=0.5)
+
+
+@pytest.fixture
+def client(settings: Settings) -> Iterator[TestClient]:
+    """A server of its own."""
+    with TestClient(create_app(settings), base_url=LOOPBACK) as client:
+        yield client
+
+
+@pytest.fixture(scope="session")
+def shared_client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
+    """A server that tests share which look at their own things only."""
+    settings = Settings(data=tmp_path_factory.mktemp("shared"), max_jobs=2, warm_workers=1)
+    with TestClient(create_app(settings), base_url=LOOPBACK) as client:
+        yield client
+
+
+@pytest.fixture(scope="session")
+def upload() -> Callable[..., dict[str, Any]]:
+    """Uploads a log and returns what the server says of it."""
+
+    def send(client: TestClient, content: bytes | None = None, **fields: str) -> dict[str, Any]:
+        files = {"file": ("drive.jsonl.gz", gzip.compress(content or native_log()))}
+        response = client.post("/api/logs", files=files, data=fields)
+        assert response.status_code == 201, response.text
+        answer: dict[str, Any] = response.json()
+        return answer
+
+    return send
+
+
+@pytest.fixture(scope="session")
+def wait_for_job() -> Callable[..., dict[str, Any]]:
+    """Waits until a job has ended and returns it."""
+
+    def wait(client: TestClient, job_id: str, seconds: float = 60) -> dict[str, Any]:
+        deadline = time.monotonic() + seconds
+        while time.monotonic() < deadline:
+            job: dict[str, Any] = client.get(f"/api/jobs/{job_id}").json()
+            if job["status"] not in ("queued", "running"):
+                return job
+            time.sleep(0.05)
+        pytest.fail(f"job {job_id} did not end in {seconds} s: {job}")
+
+    return wait
