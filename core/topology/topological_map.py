@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from core.errors import ModelError
+
 
 @dataclass(frozen=True)
 class Node:
@@ -16,6 +18,7 @@ class Node:
         area_m2: free floor in square metres.
         position: world `(x, y)` of a free point deep inside the region.
         convexity: share of the region's pairs of points that do not see each other (0 = convex).
+        suggested_room: number of the group of nodes that the program takes for one room.
     """
 
     id: str
@@ -24,6 +27,7 @@ class Node:
     area_m2: float
     position: tuple[float, float]
     convexity: float
+    suggested_room: int = 0
 
 
 @dataclass(frozen=True)
@@ -49,8 +53,31 @@ class Room:
 
 @dataclass(frozen=True)
 class TopologicalMap:
-    """Nodes, edges and rooms of one home."""
+    """Nodes, edges and rooms of one home; `next_number` is the first one that no id has used."""
 
     nodes: tuple[Node, ...]
     edges: tuple[Edge, ...]
     rooms: tuple[Room, ...]
+    next_number: int = 1
+
+    def node(self, node_id: str) -> Node:
+        """The node with an id.
+
+        Raises:
+            ModelError: there is none.
+        """
+        for node in self.nodes:
+            if node.id == node_id:
+                return node
+        raise ModelError(f"there is no node {node_id!r} in this model")
+
+    def room(self, room_id: str) -> Room:
+        """The room with an id.
+
+        Raises:
+            ModelError: there is none.
+        """
+        for room in self.rooms:
+            if room.id == room_id:
+                return room
+        raise ModelError(f"there is no room {room_id!r} in this model")

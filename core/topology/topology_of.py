@@ -1,0 +1,77 @@
+"""From regions to a topological map."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from scipy import ndimage
+
+from core.geometry import IntArray
+from core.mapping import OccupancyGrid
+from core.segmentation.hidden_pairs import hidden_pairs
+from core.topology.contacts import contacts
+from core.topology.labels import with_rooms
+from core.topology.topological_map import Edge, Node, TopologicalMap
+
+
+def topology_of(
+    grid: OccupancyGrid,
+    regions: IntArray,
+    rooms: IntArray | None = None,
+    labels: Mapping[int, str] | None = None,
+    node_ids: Mapping[int, str] | None = None,
+    next_number: int = 1,
+) -> TopologicalMap:
+    """Nodes, edges and rooms of a grid that is divided into regions.
+
+    Args:
+        grid: the map.
+        regions: (rows, cols) label image, 0 = none.
+        rooms: (rows, cols) label image of suggested rooms; by default every region is one.
+        labels: label of each region that has one.
+        node_ids: ids of regions that have one already; the others get new ones.
+        next_number: the first number that no id has used.
+    """
+    labels, ids = labels or {}, dict(node_ids or {})
+    number = next_number
+    values = [int(value) for value in np.unique(regions) if value > 0]
+    for value in values:
+        if value not in ids:
+            ids[value] = f"n{number}"
+            number += 1
+    nodes = []
+    for value in values:
+        mask = regions == value
+        room = int(np.bincount(rooms[mask]).argmax()) if rooms is not None else value
+        nodes.append(
+            Node(
+                ids[value],
+                value,
+                labels.get(value),
+                round(float(mask.sum()) * grid.geometry.cell_area, 3),
+                _deepest_point(grid, mask),
+                round(hidden_pairs(mask, ~grid.free), 3),
+                room,
+            )
+        )
+    edges = []
+    for contact in contacts(regions, grid.geometry):
+        x, y = contact.middle
+        ends = ids[contact.low], ids[contact.high]
+        edges.append(
+            Edge(f"e{number}", *ends, (round(x, 3), round(y, 3)), round(contact.width_m, 3))
+        )
+        number += 1
+    return with_rooms(TopologicalMap(tuple(nodes), tuple(edges), (), number))
+
+
+def _deepest_point(grid: OccupancyGrid, mask: IntArray) -> tuple[float, float]:
+    """World position of the point of a region that is farthest from its border."""
+    rows, cols = np.nonzero(mask)
+    low, high = (rows.min(), cols.min()), (rows.max() + 1, cols.max() + 1)
+    part = np.pad(mask[low[0] : high[0], low[1] : high[1]], 1)
+    depth = ndimage.distance_transform_edt(part)
+    row, col = np.unravel_index(int(depth.argmax()), depth.shape)
+    x, y = grid.geometry.world_of(np.array([row - 1 + low[0], col - 1 + low[1]]))
+    return round(float(x), 3), round(float(y), 3)
