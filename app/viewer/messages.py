@@ -1,0 +1,122 @@
+"""What a page and its 3D view tell each other over `WS /view/{id}/events?tab=TOKEN`, as JSON."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, TypeAdapter
+
+
+class _Message(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class Select(_Message):
+    """Page -> view: mark this node (null: none)."""
+
+    type: Literal["select"]
+    node: str | None = Field(max_length=200)
+
+
+class Layers(_Message):
+    """Page -> view: show or hide layers in this tab."""
+
+    type: Literal["layers"]
+    layers: dict[str, bool] = Field(max_length=40)
+
+
+class Camera(_Message):
+    """Page -> view: go to the 3D or the top view, or show everything again (`fit`)."""
+
+    type: Literal["camera"]
+    view: Literal["3d", "top", "fit"]
+
+
+class Measure(_Message):
+    """Page -> view: start or end measuring; starting again clears the last measurement."""
+
+    type: Literal["measure"]
+    on: bool
+
+
+class Theme(_Message):
+    """Page -> view: light or dark."""
+
+    type: Literal["theme"]
+    theme: Literal["light", "dark"]
+
+
+class Viewport(_Message):
+    """Page -> view: height of the 3D view in CSS pixels."""
+
+    type: Literal["viewport"]
+    height: float = Field(gt=0, lt=20_000, allow_inf_nan=False)
+
+
+FromPage = Annotated[
+    Select | Layers | Camera | Measure | Theme | Viewport, Field(discriminator="type")
+]
+FROM_PAGE: TypeAdapter[FromPage] = TypeAdapter(FromPage)
+
+
+class Hello(_Message):
+    """View -> page, first: what is drawn. `colours` are `#rrggbb` by node id."""
+
+    type: Literal["hello"] = "hello"
+    model: str
+    layers: dict[str, bool]
+    colours: dict[str, str]
+    labels: dict[str, str | None]
+    selected: str | None
+
+
+class Ready(_Message):
+    """View -> page: the browser's 3D view is connected and set up (or has gone)."""
+
+    type: Literal["ready"] = "ready"
+    connected: bool
+
+
+class Selected(_Message):
+    """View -> page: a node was clicked in 3D (null: beside all of them)."""
+
+    type: Literal["selected"] = "selected"
+    node: str | None
+
+
+class Labels(_Message):
+    """View -> page: somebody named nodes; all labels and colours as they are now."""
+
+    type: Literal["labels"] = "labels"
+    labels: dict[str, str | None]
+    colours: dict[str, str]
+
+
+class ModelChanged(_Message):
+    """View -> page: the model has other nodes now; ask the API again."""
+
+    type: Literal["model_changed"] = "model_changed"
+
+
+class ModelDeleted(_Message):
+    """View -> page: the model is gone."""
+
+    type: Literal["model_deleted"] = "model_deleted"
+
+
+class Measured(_Message):
+    """View -> page: the points clicked so far and, of two, their distance in metres."""
+
+    type: Literal["measured"] = "measured"
+    points: tuple[tuple[float, float], ...]
+    distance_m: float | None
+
+
+class CameraView(_Message):
+    """View -> page: which of the standard views the camera was sent to."""
+
+    type: Literal["camera"] = "camera"
+    view: Literal["3d", "top"]
+
+
+ToPage = Hello | Ready | Selected | Labels | ModelChanged | ModelDeleted | Measured | CameraView

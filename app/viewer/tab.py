@@ -1,0 +1,239 @@
+"""One tab: its page's event socket, its browser's 3D view, and what both agreed on."""
+
+from __future__ import annotations
+
+import asyncio
+import time
+from dataclasses import dataclass, field
+
+import numpy as np
+import viser
+
+from app.viewer.camera import View, blend, farthest, fit_3d, fit_top
+from app.viewer.drawing import Drawing
+from app.viewer.layers import DEFAULT_LAYERS
+from app.viewer.mailbox import Mailbox
+from app.viewer.messages import (
+    Camera,
+    CameraView,
+    FromPage,
+    Layers,
+    Measure,
+    Measured,
+    Ready,
+    Select,
+    Selected,
+    Theme,
+    ToPage,
+    Viewport,
+)
+from app.viewer.picking import floor_point, picked_node
+from app.viewer.tab_scene import TabScene
+from core.geometry import FloatArray
+
+_DECLUTTER_EVERY = 0.12
+_TRAVEL_TIME, _TRAVEL_STEPS = 0.35, 12
+"""Seconds and pictures of a camera's way from one standard view to another."""
+_DEFAULT_HEIGHT = 800.0
+
+
+@dataclass
+class TabState:
+    """What a tab shows; it outlives a lost connection."""
+
+    selected: str | None = None
+    layers: dict[str, bool] = field(default_factory=lambda: dict(DEFAULT_LAYERS))
+    theme: str = "light"
+    view: str = "3d"
+    measuring: bool = False
+    points: list[tuple[float, float]] = field(default_factory=list)
+    picture_height: float = _DEFAULT_HEIGHT
+    camera: View | None = None
+
+
+class Tab:
+    """The state of a tab and the two connections that it may have. Event loop's thread only."""
+
+    def __init__(self, token: str) -> None:
+        self.token = token
+        self.state = TabState()
+        self.scene: TabScene | None = None
+        self.mailbox: Mailbox | None = None
+        self.last_used = time.monotonic()
+        self._travel: asyncio.Task[None] | None = None
+        self._declutter_due: asyncio.TimerHandle | None = None
+
+    @property
+    def connected(self) -> bool:
+        """Whether a page or a 3D view is there."""
+        return self.scene is not None or self.mailbox is not None
+
+    def tell(self, message: ToPage) -> None:
+        """Sends a message to the page, if there is one."""
+        if self.mailbox is not None:
+            self.mailbox.put(message)
+
+    def tell_ready(self) -> None:
+        """Tells the page whether its 3D view is there."""
+        self.tell(Ready(connected=self.scene is not None))
+
+    def detach_page(self) -> None:
+        """The page's event socket has gone."""
+        self.mailbox = None
+        self.last_used = time.monotonic()
+
+    def join(self, client: viser.ClientHandle, drawing: Drawing) -> None:
+        """A 3D view has connected: brings it to this tab's state."""
+        self._stop_moving()
+        state = self.state
+        self.scene = TabScene(client, drawing)
+        self.scene.wear(state.theme)
+        self.scene.layers.show(state.layers)
+        self.scene.select(state.selected)
+        self.scene.measure(state.points)
+        view = state.camera or self._standard_view(drawing)
+        self.scene.stand_at(view, farthest(self._standard_view(drawing), drawing.bounds))
+        self.scene.declutter(view, state.picture_height, state.selected)
+        self.tell_ready()
+
+    def leave(self, client: viser.ClientHandle) -> None:
+        """A 3D view has gone; nothing if another has taken its place."""
+        self.last_used = time.monotonic()
+        if self.scene is not None and self.scene.client.client_id == client.client_id:
+            self._stop_moving()
+            self.scene = None
+            self.tell_ready()
+
+    def redraw(self, drawing: Drawing) -> None:
+        """The shared scene has been drawn anew."""
+        known = {node.id for node in drawing.nodes}
+        if self.state.selected is not None and self.state.selected not in known:
+            self.state.selected = None
+            self.tell(Selected(node=None))
+        if self.scene is not None:
+            self.scene.redraw(drawing)
+            self.scene.select(self.state.selected)
+            self.camera_moved()
+
+    def handle(self, message: FromPage) -> None:
+        """Does what the page asks."""
+        match message:
+            case Select():
+                self._select(message.node)
+            case Layers():
+                self._show(message.layers)
+            case Camera():
+                self._go(message.view)
+            case Measure():
+                self._measure(message.on)
+            case Theme():
+                self.state.theme = message.theme
+                if self.scene is not None:
+                    self.scene.wear(message.theme)
+            case Viewport():
+                self.state.picture_height = message.height
+                self.camera_moved()
+
+    def click(self, drawing: Drawing, origin: FloatArray, direction: FloatArray) -> None:
+        """A click in the 3D view, as a ray in the world."""
+        if self.state.measuring:
+            point = floor_point(origin, direction)
+            if point is not None:
+                self._add_point(point)
+            return
+        node = picked_node(drawing, origin, direction)
+        if node != self.state.selected:
+            self._select(node)
+            self.tell(Selected(node=node))
+
+    def camera_moved(self) -> None:
+        """Labels are laid out again, soon and not too often."""
+        if self._declutter_due is None and self.scene is not None:
+            loop = asyncio.get_running_loop()
+            self._declutter_due = loop.call_later(_DECLUTTER_EVERY, self._declutter)
+
+    def close(self) -> None:
+        """The view closes for good."""
+        self._stop_moving()
+        self.scene = None
+        if self.mailbox is not None:
+            self.mailbox.close()
+
+    def _select(self, node: str | None) -> None:
+        self.state.selected = node
+        if self.scene is not None:
+            self.scene.select(node)
+            self.camera_moved()
+
+    def _show(self, layers: dict[str, bool]) -> None:
+        known = {name: shown for name, shown in layers.items() if name in DEFAULT_LAYERS}
+        self.state.layers |= known
+        if self.scene is not None:
+            self.scene.layers.show(known)
+
+    def _measure(self, on: bool) -> None:
+        self.state.measuring = on
+        self.state.points.clear()
+        self._show_measured()
+
+    def _add_point(self, point: tuple[float, float]) -> None:
+        if len(self.state.points) == 2:
+            self.state.points.clear()
+        self.state.points.append(point)
+        self._show_measured()
+
+    def _show_measured(self) -> None:
+        points = tuple(self.state.points)
+        distance = float(np.hypot(*np.subtract(*points))) if len(points) == 2 else None
+        if self.scene is not None:
+            self.scene.measure(points)
+        self.tell(Measured(points=points, distance_m=distance))
+
+    def _go(self, view: str) -> None:
+        if view != "fit":
+            self.state.view = view
+        self.state.camera = None
+        self.tell(CameraView(view="top" if self.state.view == "top" else "3d"))
+        if self.scene is not None:
+            self._stop_moving()
+            target = self._standard_view(self.scene.drawing)
+            self._travel = asyncio.create_task(self._travel_to(self.scene, target))
+
+    async def _travel_to(self, scene: TabScene, target: View) -> None:
+        start = camera_view(scene.client)
+        far = farthest(target, scene.drawing.bounds)
+        for step in range(1, _TRAVEL_STEPS):
+            scene.stand_at(blend(start, target, step / _TRAVEL_STEPS), far)
+            await asyncio.sleep(_TRAVEL_TIME / _TRAVEL_STEPS)
+        scene.stand_at(target, far)
+        self.camera_moved()
+
+    def _standard_view(self, drawing: Drawing) -> View:
+        aspect = self.scene.client.camera.aspect if self.scene is not None else 1.4
+        fit = fit_top if self.state.view == "top" else fit_3d
+        return fit(drawing.bounds, aspect)
+
+    def _declutter(self) -> None:
+        self._declutter_due = None
+        if self.scene is not None:
+            view = camera_view(self.scene.client)
+            self.state.camera = view
+            self.scene.declutter(view, self.state.picture_height, self.state.selected)
+
+    def _stop_moving(self) -> None:
+        if self._travel is not None:
+            self._travel.cancel()
+            self._travel = None
+        if self._declutter_due is not None:
+            self._declutter_due.cancel()
+            self._declutter_due = None
+
+
+def camera_view(client: viser.ClientHandle) -> View:
+    """Where a client's camera is now."""
+    camera = client.camera
+    position, look_at, up = (
+        tuple(float(v) for v in vector)
+        for vector in (camera.position, camera.look_at, camera.up_direction)
+    )
+    return View(position, look_at, up, float(camera.fov))  # type: ignore[arg-type]

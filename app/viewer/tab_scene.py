@@ -1,0 +1,185 @@
+"""The part of a view that belongs to one tab: lights, layers, selection, measure, playback."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import viser
+from viser import FrameHandle
+
+from app.viewer.camera import View
+from app.viewer.canvas import LABEL_SCALE, Canvas, turned
+from app.viewer.drawing import Drawing
+from app.viewer.graph_shapes import unit_box
+from app.viewer.label_layout import LabelBox, visible_labels
+from app.viewer.layers import BARS, LABELS, ROBOT, LayerSwitch
+from app.viewer.palette import Colour
+from app.viewer.picking import region_outline
+from app.viewer.scene import label_position, label_text, sphere
+from core.geometry import FloatArray
+
+SELECTED: Colour = (24, 92, 255)
+MEASURE: Colour = (224, 36, 94)
+BAR: Colour = (66, 133, 244)
+BEST_BAR: Colour = (234, 67, 53)
+LIGHTS: Mapping[str, tuple[float, float]] = {"light": (2.0, 1.7), "dark": (0.75, 0.8)}
+"""Intensity of the hemisphere and of the directional light in each theme."""
+SUN = (-4.0, -7.0, 10.0)
+BAR_HEIGHT, BAR_WIDTH, BAR_OFFSET = 1.8, 0.26, 0.42
+OUTLINE_HEIGHT, OUTLINE_WIDTH, MEASURE_HEIGHT = 0.05, 0.07, 0.08
+"""Metres."""
+
+
+class TabScene:
+    """What one connected browser sees beyond the shared scene."""
+
+    def __init__(self, client: viser.ClientHandle, drawing: Drawing) -> None:
+        self.client = client
+        self.drawing = drawing
+        self._canvas = Canvas(client.scene)
+        self.layers = LayerSwitch(self._canvas)
+        self._sky = client.scene.add_light_hemisphere(
+            "/lights/sky", sky_color=(255, 255, 255), ground_color=(186, 194, 214), intensity=2.0
+        )
+        self._sun = client.scene.add_light_directional(
+            "/lights/sun", color=(255, 250, 240), intensity=1.7, position=SUN
+        )
+        self._label_groups: dict[str, FrameHandle] = {}
+
+    def redraw(self, drawing: Drawing) -> None:
+        """The shared scene shows another drawing now."""
+        self.drawing = drawing
+        for group in self._label_groups.values():
+            group.remove()
+        self._label_groups.clear()
+
+    def wear(self, theme: str) -> None:
+        """Floor and light of a theme."""
+        self.layers.wear(theme)
+        self._sky.intensity, self._sun.intensity = LIGHTS[theme]
+
+    def select(self, node_id: str | None) -> None:
+        """Marks a node: a line around its region and a halo around its sphere."""
+        node = next((node for node in self.drawing.nodes if node.id == node_id), None)
+        if node is None:
+            self._canvas.remove("/selection")
+            return
+        self._canvas.lines(
+            "/selection/outline",
+            region_outline(self.drawing, node.region, OUTLINE_HEIGHT),
+            SELECTED,
+            OUTLINE_WIDTH,
+        )
+        self._canvas.instances(
+            "/selection/halo",
+            sphere(3),
+            np.array([node.centre]),
+            np.array([node.radius * 1.45]),
+            [SELECTED],
+            opacity=0.35,
+        )
+
+    def measure(self, points: Sequence[tuple[float, float]]) -> None:
+        """Shows none, one or two measured points, the latter with their distance."""
+        self._canvas.remove("/measure")
+        if not points:
+            return
+        flat = np.array([(x, y, MEASURE_HEIGHT) for x, y in points])
+        self._canvas.instances(
+            "/measure/ends", sphere(2), flat, np.full(len(flat), 0.08), [MEASURE] * len(flat)
+        )
+        if len(flat) == 2:
+            self._canvas.lines("/measure/line", flat[None], MEASURE, 3.0, on_screen=True)
+            distance = float(np.linalg.norm(flat[1] - flat[0]))
+            self._canvas.label("/measure/label", f"{distance:.2f} m", flat.mean(axis=0).tolist())
+
+    def set_probabilities(self, probabilities: Mapping[str, float]) -> None:
+        """A bar beside every node, as high as its probability (0..1); the best one in red."""
+        nodes = [node for node in self.drawing.nodes if node.id in probabilities]
+        if not nodes:
+            self._canvas.remove(f"/{BARS}/boxes")
+            return
+        share = np.clip([probabilities[node.id] for node in nodes], 0.0, 1.0)
+        best = int(np.argmax(share))
+        feet = np.array([node.centre for node in nodes])
+        feet[:, 0] += BAR_OFFSET
+        feet[:, 2] = 0.02
+        scales = np.full((len(nodes), 3), BAR_WIDTH)
+        scales[:, 2] = np.maximum(share * BAR_HEIGHT, 0.02)
+        colours = [BEST_BAR if index == best else BAR for index in range(len(nodes))]
+        self._canvas.instances(f"/{BARS}/boxes", unit_box(), feet, scales, colours)
+
+    def set_robot(self, pose: Sequence[float] | None, radius: float = 0.22) -> None:
+        """The robot at a pose (x, y, heading), or nowhere."""
+        if pose is None:
+            self._canvas.remove(f"/{ROBOT}/body")
+            return
+        x, y, heading = pose
+        handle = self._canvas.scene.get_handle_by_name(f"/{ROBOT}/body")
+        if handle is None:
+            self._make_robot(radius)
+            handle = self._canvas.scene.get_handle_by_name(f"/{ROBOT}/body")
+        if handle is not None:
+            handle.position = (float(x), float(y), 0.0)
+            handle.wxyz = turned(float(heading))
+
+    def set_points(self, kind: str, points: FloatArray, colour: Colour, size: float) -> None:
+        """Small balls on the floor, such as template points or candidate poses: (N, 2) world."""
+        name = f"/{ROBOT}/{kind}"
+        flat = np.column_stack((points[:, :2], np.full(len(points), 0.1)))
+        balls = self._canvas.instances(
+            name, sphere(1), flat, np.full(len(flat), size), [colour] * len(flat)
+        )
+        if balls is None:
+            self._canvas.remove(name)
+
+    def declutter(self, view: View, picture_height: float, selected: str | None) -> None:
+        """Hides labels that would cover others from where the camera is."""
+        boxes = [
+            LabelBox(
+                label_text(node.label, node.region),
+                label_position(node),
+                node.area + (1e6 if node.id == selected else 0.0),
+            )
+            for node in self.drawing.nodes
+        ]
+        shown = visible_labels(boxes, view, picture_height, LABEL_SCALE)
+        for index, (node, visible) in enumerate(zip(self.drawing.nodes, shown, strict=True)):
+            group = self._label_groups.get(node.id)
+            if group is None and not visible:
+                self._label_groups[node.id] = self._canvas.group(f"/{LABELS}/{index}", False)
+            elif group is not None and group.visible != visible:
+                group.visible = visible
+
+    def stand_at(self, view: View, far: float) -> None:
+        """Moves the camera there at once."""
+        camera = self.client.camera
+        with self.client.atomic():
+            camera.far = far
+            camera.max_orbit_distance = far
+            camera.up_direction = view.up
+            camera.position = view.position
+            camera.look_at = view.look_at
+            camera.fov = view.fov
+
+    def _make_robot(self, radius: float) -> None:
+        body = f"/{ROBOT}/body"
+        self._canvas.group(body)
+        self.client.scene.add_cylinder(
+            f"{body}/hull",
+            radius=radius,
+            height=0.24,
+            color=(38, 44, 60),
+            position=(0, 0, 0.16),
+            cast_shadow=False,
+            receive_shadow=False,
+        )
+        self.client.scene.add_box(
+            f"{body}/nose",
+            color=(255, 196, 0),
+            dimensions=(radius, 0.06, 0.05),
+            position=(radius * 0.55, 0.0, 0.30),
+            cast_shadow=False,
+            receive_shadow=False,
+        )
