@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
@@ -163,7 +162,7 @@ def _write_labels(path: Path, labels: IntArray) -> None:
         raise ModelError(f"{path.name} can hold {MAX_REGIONS} regions, not {labels.max()}")
     fresh = path.with_suffix(".new")
     Image.fromarray(np.ascontiguousarray(labels[::-1]).astype(np.uint16)).save(fresh, "PNG")
-    os.replace(fresh, path)
+    fresh.replace(path)
 
 
 def _read_labels(path: Path, shape: tuple[int, int]) -> IntArray:
@@ -199,4 +198,4 @@ def _read_history(path: Path) -> tuple[Mapping[str, Any], ...]:
 def _replace(path: Path, data: bytes) -> None:
     fresh = path.with_suffix(".new")
     fresh.write_bytes(data)
-    os.replace(fresh, path)
+    fresh.replace(path)

@@ -1,0 +1,87 @@
+"""The command line: `echorooms COMMAND`."""
+
+from __future__ import annotations
+
+import sys
+from importlib.metadata import PackageNotFoundError, version
+from typing import Annotated
+
+import click
+import typer
+
+from app.commands.demo import demo
+from app.commands.map import map_log
+from app.commands.model import model
+from app.commands.serve import serve
+from app.commands.simulate import simulate
+from core.errors import CancelledError, EchoRoomsError, InputError
+
+BAD_USAGE, FAILED, INTERRUPTED = 2, 1, 130
+
+app = typer.Typer(
+    name="echorooms",
+    help="Grid maps, named rooms and an honest 'where am I?' from cheap sonar.",
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+)
+
+
+def _show_version(wanted: bool) -> None:
+    if wanted:
+        try:
+            typer.echo(f"echorooms {version('echorooms')}")
+        except PackageNotFoundError:
+            typer.echo("echorooms (not installed)")
+        raise typer.Exit
+
+
+@app.callback()
+def options(
+    show_version: Annotated[
+        bool,
+        typer.Option("--version", callback=_show_version, is_eager=True, help="Show the version."),
+    ] = False,
+) -> None:
+    """Grid maps, named rooms and an honest 'where am I?' from cheap sonar."""
+
+
+app.command("demo")(demo)
+app.command("serve")(serve)
+app.command("simulate")(simulate)
+app.command("map")(map_log)
+app.command("model")(model)
+
+
+def main(arguments: list[str] | None = None) -> None:
+    """Runs a command and ends the process: 0, or one line on stderr and non-zero."""
+    sys.exit(run(arguments))
+
+
+def run(arguments: list[str] | None = None) -> int:
+    """Runs a command and returns its exit status."""
+    try:
+        status = typer.main.get_command(app)(arguments, standalone_mode=False)
+    except click.exceptions.NoArgsIsHelpError as error:
+        typer.echo(error.format_message())
+        return BAD_USAGE
+    except click.ClickException as error:
+        return _fail(error.format_message(), BAD_USAGE)
+    except InputError as error:
+        return _fail(str(error), BAD_USAGE)
+    except (click.Abort, KeyboardInterrupt, CancelledError):
+        return _fail("interrupted", INTERRUPTED)
+    except EchoRoomsError as error:
+        return _fail(str(error), FAILED)
+    except OSError as error:
+        return _fail(f"{error.filename or 'file'}: {error.strerror or error}", FAILED)
+    except MemoryError:
+        return _fail("not enough memory for this input", FAILED)
+    return int(status or 0)
+
+
+def _fail(message: str, status: int) -> int:
+    line = " ".join(message.split())
+    sys.stderr.write(f"error: {line}\n")
+    return status

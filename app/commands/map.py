@@ -1,0 +1,61 @@
+"""`echorooms map`: an occupancy grid from a log."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+
+class Mapping(StrEnum):
+    """Mapping methods."""
+
+    cemal = "cemal"
+    bayes = "bayes"
+
+
+class Odometry(StrEnum):
+    """Which trajectory a map is made at."""
+
+    raw = "raw"
+    calibrated = "calibrated"
+    corrected = "corrected"
+
+
+RingOption = Annotated[
+    str | None,
+    typer.Option(help="Sonar ring of a format that has none: a preset's name or a file."),
+]
+ResolutionOption = Annotated[float, typer.Option(help="Metres per cell.")]
+OdometryOption = Annotated[
+    Odometry, typer.Option(help="Odometry as it is, or with its drift corrected.")
+]
+
+
+def map_log(
+    log: Annotated[Path, typer.Argument(help="A log of any supported format.")],
+    out: Annotated[Path, typer.Option(help="Folder to write.")],
+    method: Annotated[Mapping, typer.Option(help="Mapping method.")] = Mapping.cemal,
+    resolution: ResolutionOption = 0.05,
+    odometry: OdometryOption = Odometry.raw,
+    ring: RingOption = None,
+) -> None:
+    """Make an occupancy grid: map.yaml, map.pgm, trajectory.csv."""
+    from app.commands.inputs import load_log
+    from app.commands.output_folder import complete_folder
+    from app.commands.terminal import progress_bar
+    from core.mapping.map_server import write_map
+    from core.pipeline.mapper import MappingOptions
+    from core.pipeline.mapper import map_log as make_map
+    from core.progress import part_of
+    from core.sensing import Trajectory
+
+    options = MappingOptions(method.value, resolution)
+    with progress_bar() as progress, complete_folder(out) as folder:
+        drive = load_log(log, ring, part_of(progress, 0.0, 0.1))
+        trajectory = Trajectory.from_odometry(drive)
+        result = make_map(drive, trajectory, options, part_of(progress, 0.1, 1.0))
+        write_map(result.grid, folder)
+        trajectory.write_csv(folder / "trajectory.csv")

@@ -1,0 +1,162 @@
+"""The modeller: a drive or a map in, a model (regions, topology, rooms) out."""
+
+from __future__ import annotations
+
+import platform
+from dataclasses import asdict, dataclass
+from importlib.metadata import PackageNotFoundError, version
+from typing import Any, Literal
+
+import numpy as np
+
+from core.errors import InputError, UsageError
+from core.geometry import BoolArray
+from core.mapping import OccupancyGrid
+from core.mapping.occupancy_grid import DEFAULT_RESOLUTION
+from core.pipeline.mapper import MappingMethod, MappingOptions, map_log
+from core.progress import Progress, no_progress, part_of
+from core.segmentation.connected import largest_component
+from core.segmentation.offline import OfflineConfig, segment_offline
+from core.sensing import RobotLog, Trajectory
+from core.topology import Model
+from core.topology.labels import carried_labels, room_image
+from core.topology.topology_of import topology_of
+
+Mode = Literal["autonomous", "offline"]
+MAPPING_SHARE = 0.7
+"""Share of the time that goes into the map, for the progress."""
+
+
+@dataclass(frozen=True)
+class ModellingOptions:
+    """What a user chooses for a model; what cannot be is refused when it is made.
+
+    Attributes:
+        mode: autonomous (3.2) or offline (3.1); by default autonomous without a number of regions.
+        method: our default or the paper's method as written.
+        regions: number of regions, offline only; None when it is to be found.
+        mapping: mapping method.
+        odometry: which trajectory the map is made at.
+        resolution: metres per cell.
+        seed: of everything that is drawn.
+    """
+
+    mode: Mode | None = None
+    method: Literal["default", "paper"] = "default"
+    regions: int | None = None
+    mapping: MappingMethod = "cemal"
+    odometry: Literal["raw", "calibrated", "corrected"] = "raw"
+    resolution: float = DEFAULT_RESOLUTION
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        if self.mode == "autonomous" and self.regions is not None:
+            raise UsageError(
+                "autonomous modelling finds the number of regions itself: leave the number away "
+                "or choose mode offline"
+            )
+        if self.regions is not None and self.regions < 1:
+            raise InputError(f"{self.regions} regions cannot be made: choose a number from 1")
+        MappingOptions(self.mapping, self.resolution)
+
+
+def model_log(
+    log: RobotLog,
+    options: ModellingOptions | None = None,
+    progress: Progress = no_progress,
+    previous: Model | None = None,
+) -> Model:
+    """Models a home from a drive through it.
+
+    Args:
+        log: the drive; its truth is not looked at.
+        options: what the user chose.
+        progress: told all along.
+        previous: an earlier model of the same drive, whose labels go along by overlap.
+
+    Raises:
+        InputError: the log cannot be modelled so.
+    """
+    options = options or ModellingOptions()
+    log = log.without_truth()
+    trajectory = Trajectory.from_odometry(log)
+    mapping = MappingOptions(options.mapping, options.resolution)
+    result = map_log(log, trajectory, mapping, part_of(progress, 0.0, MAPPING_SHARE))
+    cells = result.grid.geometry.cell_of(trajectory.poses[:, :2])
+    floor = largest_component(result.grid.free, cells[result.grid.geometry.contains(cells)])
+    provenance = {
+        "inputs": [
+            {
+                "log": log.name,
+                "scans": len(log),
+                "duration_s": round(log.duration_s, 3),
+                "distance_m": round(log.distance_m, 3),
+            }
+        ],
+        "mapping": mapping.parameters(),
+    }
+    return _model(result.grid, floor, trajectory, options, provenance, progress, previous)
+
+
+def model_map(
+    grid: OccupancyGrid,
+    options: ModellingOptions | None = None,
+    progress: Progress = no_progress,
+    previous: Model | None = None,
+) -> Model:
+    """Models a home from a map that another program made (offline, 3.1).
+
+    Raises:
+        UsageError: autonomous modelling, which needs a drive.
+        InputError: the map cannot be modelled so.
+    """
+    options = options or ModellingOptions(mode="offline")
+    if options.mode == "autonomous":
+        raise UsageError("autonomous modelling needs a log: a map tells nothing of the drive")
+    provenance = {"inputs": [{"map": list(grid.geometry.shape)}]}
+    floor = largest_component(grid.free)
+    return _model(grid, floor, None, options, provenance, progress, previous)
+
+
+def _model(
+    grid: OccupancyGrid,
+    floor: BoolArray,
+    trajectory: Trajectory | None,
+    options: ModellingOptions,
+    provenance: dict[str, Any],
+    progress: Progress,
+    previous: Model | None,
+) -> Model:
+    if options.regions is None:
+        raise UsageError("finding the number of regions is not there yet: give --regions K")
+    progress(MAPPING_SHARE, "cutting free space into regions")
+    config = OfflineConfig()
+    regions = segment_offline(floor, options.regions, options.seed, config)
+    progress(0.9, "finding doorways")
+    labels = (
+        carried_labels(
+            previous.topology, previous.regions, previous.grid.geometry, regions, grid.geometry
+        )
+        if previous
+        else {}
+    )
+    topology = topology_of(grid, regions, labels=labels)
+    provenance |= {
+        "options": asdict(options),
+        "segmentation": asdict(config),
+        "versions": _versions(),
+    }
+    progress(1.0, "done")
+    history = ({"event": "offline", "regions": options.regions, "seed": options.seed},)
+    return Model(
+        grid, regions, room_image(regions, topology), topology, trajectory, provenance, history
+    )
+
+
+def _versions() -> dict[str, str]:
+    """The versions that made a model."""
+    try:
+        own = version("echorooms")
+    except PackageNotFoundError:
+        own = "unknown"
+    return {"echorooms": own, "numpy": np.__version__, "python": platform.python_version()}
