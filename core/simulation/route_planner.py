@@ -1,0 +1,79 @@
+"""Where a simulated robot can drive, and the way from here to there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from scipy import ndimage
+from skimage.graph import MCP_Geometric
+
+from core.geometry import BoolArray, FloatArray, IntArray
+from core.simulation.home import Home
+from core.simulation.home_truth import HomeTruth, cells_in, truth_of
+
+CLEARANCE = 0.05
+"""Free space kept around the robot's disc (m)."""
+COMFORT = 0.45
+"""Clearance (m) from its centre at which the robot no longer cares how much more there is."""
+NARROW_COST = 4.0
+"""A way along the tightest passage counts this many times its length more."""
+
+
+class RoutePlanner:
+    """The cells of a home that a robot's centre may occupy, and routes through them."""
+
+    def __init__(self, home: Home, robot_radius: float) -> None:
+        self.truth: HomeTruth = truth_of(home)
+        self.geometry = self.truth.geometry
+        blocked = self.truth.occupied.copy()
+        for piece in home.furniture:
+            blocked[cells_in(piece.footprint, self.geometry)] = True
+        cell = self.geometry.resolution
+        self.clearance = np.asarray(ndimage.distance_transform_edt(~blocked) * cell - cell / 2)
+        """(rows, cols) metres from each cell's centre to the nearest thing."""
+        self.passable: BoolArray = largest_part(self.clearance >= robot_radius + CLEARANCE)
+        """(rows, cols) where the robot's centre may be: the largest connected part."""
+        tight = np.clip(1.0 - (self.clearance - robot_radius) / COMFORT, 0.0, 1.0)
+        self._cost = np.where(self.passable, 1.0 + NARROW_COST * tight**2, -1.0)
+
+    def passable_cells(self) -> IntArray:
+        """All passable cells `[row, col]` (N, 2)."""
+        return np.argwhere(self.passable)
+
+    def nearest_passable(self, xy: Sequence[float] | FloatArray) -> FloatArray:
+        """The passable position closest to a world point."""
+        cells = self.passable_cells()
+        centres = self.geometry.world_of(cells)
+        return np.asarray(centres[np.argmin(((centres - np.asarray(xy)) ** 2).sum(axis=1))])
+
+    def route(self, start: FloatArray, goal: FloatArray) -> FloatArray:
+        """A way (N, 2) in metres from one passable position to another, away from obstacles."""
+        from_cell = tuple(int(v) for v in self.geometry.cell_of(self.nearest_passable(start)))
+        to_cell = tuple(int(v) for v in self.geometry.cell_of(self.nearest_passable(goal)))
+        search = MCP_Geometric(self._cost)
+        search.find_costs([from_cell], [to_cell])
+        cells = np.array(search.traceback(to_cell))
+        return smoothed(self.geometry.world_of(cells))
+
+
+def smoothed(way: FloatArray, reach: int = 4) -> FloatArray:
+    """A way (N, 2) with every point moved to the mean of its neighbours up to `reach` away."""
+    if len(way) < 3:
+        return way
+    padded = np.vstack((np.repeat(way[:1], reach, 0), way, np.repeat(way[-1:], reach, 0)))
+    window = 2 * reach + 1
+    sums = np.cumsum(np.vstack((np.zeros((1, 2)), padded)), axis=0)
+    mean = (sums[window:] - sums[:-window]) / window
+    mean[0], mean[-1] = way[0], way[-1]
+    return np.asarray(mean)
+
+
+def largest_part(mask: BoolArray) -> BoolArray:
+    """The largest connected part (4-neighbours) of a mask; the mask itself when it is empty."""
+    labels, count = ndimage.label(mask)
+    if count < 2:
+        return mask
+    sizes = np.bincount(labels.ravel())
+    sizes[0] = 0
+    return np.asarray(labels == sizes.argmax())
