@@ -6,7 +6,6 @@ import sys
 from importlib.metadata import PackageNotFoundError, version
 from typing import Annotated
 
-import click
 import typer
 
 from app.commands.demo import demo
@@ -18,10 +17,12 @@ from core.errors import CancelledError, EchoRoomsError, InputError
 
 BAD_USAGE, FAILED, INTERRUPTED = 2, 1, 130
 
+_CommandLineError: type[Exception] = typer.BadParameter.__mro__[2]
+"""ClickException: base of all usage errors, wherever this version of typer keeps it."""
+
 app = typer.Typer(
     name="echorooms",
     help="Grid maps, named rooms and an honest 'where am I?' from cheap sonar.",
-    no_args_is_help=True,
     add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
@@ -61,16 +62,14 @@ def main(arguments: list[str] | None = None) -> None:
 
 def run(arguments: list[str] | None = None) -> int:
     """Runs a command and returns its exit status."""
+    given = sys.argv[1:] if arguments is None else arguments
     try:
-        status = typer.main.get_command(app)(arguments, standalone_mode=False)
-    except click.exceptions.NoArgsIsHelpError as error:
-        typer.echo(error.format_message())
-        return BAD_USAGE
-    except click.ClickException as error:
-        return _fail(error.format_message(), BAD_USAGE)
+        status = typer.main.get_command(app)(given or ["--help"], standalone_mode=False)
+    except typer.Exit as error:
+        return error.exit_code
     except InputError as error:
         return _fail(str(error), BAD_USAGE)
-    except (click.Abort, KeyboardInterrupt, CancelledError):
+    except (typer.Abort, KeyboardInterrupt, CancelledError):
         return _fail("interrupted", INTERRUPTED)
     except EchoRoomsError as error:
         return _fail(str(error), FAILED)
@@ -78,6 +77,8 @@ def run(arguments: list[str] | None = None) -> int:
         return _fail(f"{error.filename or 'file'}: {error.strerror or error}", FAILED)
     except MemoryError:
         return _fail("not enough memory for this input", FAILED)
+    except _CommandLineError as error:
+        return _fail(error.format_message(), BAD_USAGE)  # type: ignore[attr-defined]
     return int(status or 0)
 
 
