@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import contextlib
+import importlib.util
 from collections.abc import AsyncIterator
+from typing import TYPE_CHECKING
 
 from fastapi import APIRouter, FastAPI
 
@@ -12,8 +14,11 @@ from app.api.static_pages import STATIC_FOLDER, StaticPages
 from app.errors import install_error_handlers
 from app.events import ModelEvents
 from app.security import BrowserGuard
-from app.services import open_services
+from app.services import Services, open_services
 from app.settings import Settings
+
+if TYPE_CHECKING:
+    from core.topology import Model
 
 DESCRIPTION = "Sonar logs in, maps with named rooms out. All lengths in metres, angles in radians."
 
@@ -44,6 +49,20 @@ def create_app(settings: Settings) -> FastAPI:
         api.include_router(router)
     app.include_router(api)
     app.include_router(docs_page.router)
+    _attach_view(app, settings, events)
     app.mount("/", StaticPages(app, STATIC_FOLDER), name="static")
     app.add_middleware(BrowserGuard, settings=settings)
     return app
+
+
+def _attach_view(app: FastAPI, settings: Settings, events: ModelEvents) -> None:
+    """Adds the 3D view, which reads models from the store that the running app has."""
+    if importlib.util.find_spec("app.viewer") is None:
+        return
+    from app.viewer import attach
+
+    def load_model(model_id: str) -> Model | None:
+        services: Services = app.state.services
+        return services.models.load(model_id)
+
+    attach(app, load_model, events, settings)

@@ -8,7 +8,7 @@ from app.api.dependencies import ServicesDep
 from app.api.models import model_detail
 from app.api.schemas import LabelBody, ModelDetail
 from app.services import Services
-from app.storage.model_store import Edit
+from app.storage.model_files import Edit
 
 router = APIRouter(prefix="/models", tags=["labels"])
 
@@ -30,6 +30,4 @@ def label_room(model_id: str, room_id: str, body: LabelBody, services: ServicesD
 
 
 def _edited(services: Services, model_id: str, edit: Edit) -> ModelDetail:
-    services.models.get(model_id)
-    services.models.edit(model_id, edit)
-    return model_detail(services, services.models.get(model_id))
+    return model_detail(services, services.models.edit(model_id, edit))

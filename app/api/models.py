@@ -109,14 +109,18 @@ def get_grid_picture(model_id: str, services: ServicesDep) -> Response:
     """White is free, black occupied, grey unknown; row 0 is the top."""
     from app.api.grid_picture import grid_png
 
-    return Response(grid_png(services.models.files(model_id)), media_type="image/png")
+    return Response(grid_png(services.models.folder(model_id)), media_type="image/png")
 
 
 def model_detail(services: Services, record: ModelRecord) -> ModelDetail:
-    """A model as its files tell."""
+    """A model as its files tell; without nodes until it is made."""
     fields = summary_fields(record)
-    if services.models.has_files(record.id):
-        files = services.models.files(record.id)
-        topology = read_json(files / TOPOLOGY_FILE)
-        fields |= topology | {"provenance": read_json(files / PROVENANCE_FILE)}
+    while record.revision:
+        try:
+            folder = services.models.folder(record.id)
+            topology = read_json(folder / TOPOLOGY_FILE)
+            fields |= topology | {"provenance": read_json(folder / PROVENANCE_FILE)}
+            break
+        except FileNotFoundError:
+            continue  # an edit has just replaced the revision
     return ModelDetail(**fields)

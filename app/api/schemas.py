@@ -5,7 +5,7 @@ from __future__ import annotations
 from datetime import UTC, datetime
 from typing import Annotated, Any, Literal
 
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
 from app.jobs.runner import JobView
 from app.storage.records import LogRecord, ModelRecord, Status
@@ -53,7 +53,7 @@ class ModelBody(Body):
     log_id: str = Field(max_length=64)
     name: Name | None = None
     mode: Literal["autonomous", "offline"] | None = Field(
-        None, description="default: offline when `regions` is given, else autonomous"
+        None, description="offline when `regions` is given, else autonomous"
     )
     regions: int | None = Field(
         None, ge=1, le=MAX_REGIONS, strict=True, description="number of regions (offline)"
@@ -61,12 +61,20 @@ class ModelBody(Body):
     method: Literal["default", "paper"] = "default"
     mapping: Literal["cemal", "bayes"] = "cemal"
     odometry: Literal["raw", "calibrated", "corrected"] | None = None
-    resolution: float = Field(0.05, ge=0.01, le=0.5, description="metres per cell")
+    resolution: float = Field(0.05, ge=0.02, le=0.5, description="metres per cell")
 
     def options(self) -> dict[str, Any]:
         """What `core.pipeline.modeller.ModellingOptions` takes."""
-        given = self.model_dump(exclude={"log_id", "name"}, exclude_none=True)
-        return {"mode": "autonomous" if self.regions is None else "offline"} | given
+        return self.model_dump(exclude={"log_id", "name"}, exclude_none=True)
+
+    @model_validator(mode="after")
+    def _possible(self) -> ModelBody:
+        if self.mode == "autonomous" and self.regions is not None:
+            raise ValueError(
+                "autonomous modelling finds the number of regions itself: leave regions away "
+                "or choose mode offline"
+            )
+        return self
 
 
 class ImportFields(Body):

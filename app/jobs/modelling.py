@@ -54,7 +54,7 @@ class Modelling:
             }
             facts = await self.services.pool.run(self.task, arguments, limits, report)
             with job.commit():
-                await asyncio.to_thread(models.publish, self.model_id, made, facts, self.log_ids)
+                await asyncio.to_thread(models.publish, self.model_id, made, self.log_ids, facts)
 
     def ended(self, status: Status, error: str | None) -> None:
         """Notes on the model how its job ended."""

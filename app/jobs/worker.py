@@ -28,10 +28,14 @@ NICENESS = 5
 """Below the server, so that pages stay quick while every core models."""
 HEAVY_MODULES = (
     "app.jobs.tasks.read_log",
+    "scipy.ndimage",
+    "scipy.sparse.linalg",
+    "skimage.measure",
+    "numba",
     "app.jobs.tasks.model_log",
     "app.jobs.tasks.model_map",
 )
-"""Imported ahead of the first task by a worker that is kept warm."""
+"""Imported by a worker that is kept warm, one after another while it has nothing else to do."""
 logger = logging.getLogger(__name__)
 
 
@@ -43,10 +47,12 @@ def main() -> None:
     answers = _claim_stdout()
     requests: queue.Queue[dict[str, Any]] = queue.Queue()
     threading.Thread(target=_read_requests, args=(requests,), daemon=True).start()
-    if "--warm" in sys.argv:
-        _import_heavy_modules()
+    ahead = list(HEAVY_MODULES) if "--warm" in sys.argv else []
     while True:
-        _serve(requests.get(), answers)
+        if ahead and requests.empty():
+            _import_ahead(ahead.pop(0))
+        else:
+            _serve(requests.get(), answers)
 
 
 def _claim_stdout() -> TextIO:
@@ -62,12 +68,11 @@ def _read_requests(requests: queue.Queue[dict[str, Any]]) -> None:
     os._exit(0)
 
 
-def _import_heavy_modules() -> None:
-    for name in HEAVY_MODULES:
-        try:
-            importlib.import_module(name)
-        except ImportError:
-            logger.exception("cannot import %s ahead", name)
+def _import_ahead(name: str) -> None:
+    try:
+        importlib.import_module(name)
+    except ImportError:
+        logger.exception("cannot import %s", name)
 
 
 def _serve(request: dict[str, Any], answers: TextIO) -> None:

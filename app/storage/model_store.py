@@ -1,38 +1,31 @@
-"""The models: `models/ID/NNNNNN/` is a model folder as CONTRACT has it, one per revision.
-
-The highest revision is the model; a new one appears by a rename, so that a reader sees the model
-before an edit or after it, never in between. What the index holds of a model is only for lists.
-"""
+"""The models: their files, and an index of them for lists and searches."""
 
 from __future__ import annotations
 
 import json
-import os
-import shutil
 import threading
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import AbstractContextManager
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from sqlalchemy import Connection, RowMapping, delete, insert, select, update
 
 from app.errors import Conflict, NotFound
 from app.events import ModelEvents
-from app.storage.data_folder import DataFolder, new_id, size_on_disk
+from app.storage.data_folder import DataFolder, new_id
 from app.storage.database import Database
-from app.storage.model_facts import TOPOLOGY_FILE, facts_of
+from app.storage.model_facts import facts_of
+from app.storage.model_files import Edit, ModelFiles
 from app.storage.records import ModelRecord, Status
 from app.storage.search import Sorting, matching, ordering
 from app.storage.tables import model_logs, models
 
-EDITED_FILES = frozenset({TOPOLOGY_FILE, "rooms.png", "history.jsonl"})
-"""What an edit may write; all other files of a revision are shared with the one before."""
-SOURCE_FOLDER = "source"
+if TYPE_CHECKING:
+    from core.topology import Model
+
 SORTINGS = ("name", "created", "updated", "status", "nodes", "rooms", "area_m2", "size_bytes")
-Edit = Callable[[Path], None]
-"""Changes the files of `EDITED_FILES` in a model folder."""
 
 
 class ModelStore:
@@ -40,31 +33,34 @@ class ModelStore:
 
     def __init__(self, database: Database, folder: DataFolder, events: ModelEvents) -> None:
         self._database = database
-        self._folder = folder
+        self._files = ModelFiles(folder)
         self._events = events
         self._lock = threading.RLock()
 
     def add(self, name: str, options: Mapping[str, Any], log_ids: Sequence[str]) -> ModelRecord:
         """A new model that has yet to be made."""
         now = time.time()
-        row = {
-            "id": new_id(),
-            "name": name,
-            "created": now,
-            "updated": now,
-            "status": Status.QUEUED,
-            "options": json.dumps(dict(options)),
-            "labels": "[]",
-            "nodes": 0,
-            "rooms": 0,
-            "area_m2": 0.0,
-            "size_bytes": 0,
-            "revision": 0,
-        }
+        record = ModelRecord(
+            id=new_id(),
+            name=name,
+            created=now,
+            updated=now,
+            status=Status.QUEUED,
+            error=None,
+            job_id=None,
+            options=options,
+            log_ids=tuple(log_ids),
+            nodes=0,
+            rooms=0,
+            area_m2=0.0,
+            labels=(),
+            size_bytes=0,
+            revision=0,
+        )
         with self._database.write() as connection:
-            connection.execute(insert(models).values(**row))
-            _link_logs(connection, str(row["id"]), log_ids)
-        return self.get(str(row["id"]))
+            connection.execute(insert(models).values(**_row(record)))
+            _link_logs(connection, record.id, log_ids)
+        return record
 
     def get(self, model_id: str) -> ModelRecord:
         """The model with this id.
@@ -72,10 +68,9 @@ class ModelStore:
         Raises:
             NotFound: there is none.
         """
+        statement = select(models).where(models.c.id == model_id)
         with self._database.read() as connection:
-            row = (
-                connection.execute(select(models).where(models.c.id == model_id)).mappings().first()
-            )
+            row = connection.execute(statement).mappings().first()
             if row is None:
                 raise NotFound("model", model_id)
             return _record(row, _log_ids(connection, [model_id]))
@@ -95,7 +90,7 @@ class ModelStore:
         Raises:
             NotFound: there is none.
         """
-        self._set(model_id, name=name)
+        self._set(model_id, name=name, updated=time.time())
         self._events.model_changed(model_id)
         return self.get(model_id)
 
@@ -103,67 +98,75 @@ class ModelStore:
         """Nobody else edits, publishes or deletes a model meanwhile."""
         return self._lock
 
+    def add_source(self, model_id: str, prepared: Path) -> Path:
+        """Keeps the files that an imported model is made from; returns their folder."""
+        return self._files.add_source(model_id, prepared)
+
     def set_job(self, model_id: str, job_id: str) -> None:
         """Notes the job that makes the model."""
         self._set(model_id, job_id=job_id, status=Status.QUEUED, error=None)
 
-    def add_source(self, model_id: str, prepared: Path) -> Path:
-        """Keeps the files that an imported model is made from; returns their folder."""
-        source = self._place(model_id) / SOURCE_FOLDER
-        self._folder.publish(prepared, source)
-        return source
-
     def set_status(self, model_id: str, status: Status, error: str | None = None) -> None:
         """Notes how far the job is; a model that was whole before stays whole when it fails."""
-        whole = status in (Status.FAILED, Status.CANCELLED) and self.has_files(model_id)
+        whole = status in (Status.FAILED, Status.CANCELLED) and bool(
+            self._files.revisions(model_id)
+        )
         self._set(model_id, status=Status.DONE if whole else status, error=error)
 
     def publish(
-        self, model_id: str, prepared: Path, facts: Mapping[str, Any], log_ids: Sequence[str]
+        self, model_id: str, prepared: Path, log_ids: Sequence[str], facts: Mapping[str, Any]
     ) -> None:
         """Takes over a model folder that a worker has written, as the newest revision.
 
+        The labels of the revision before go along, as they are now.
+
         Args:
-            facts: what the index should know: `nodes`, `rooms`, `area_m2`, `labels`.
             log_ids: the logs that it is made from.
+            facts: what `facts_of` tells of the folder.
         """
         with self._lock:
-            self._switch(model_id, prepared)
+            earlier = self._files.revisions(model_id)
+            if earlier:
+                from app.storage.label_edit import carry_labels
+
+                carry_labels(earlier[-1], prepared)
+                facts = facts_of(prepared)
+            self._files.switch(model_id, prepared)
             with self._database.write() as connection:
                 _link_logs(connection, model_id, log_ids)
-            self._index(model_id, facts, status=Status.DONE, error=None)
+            self._index(model_id, facts, status=Status.DONE, error=None, updated=time.time())
         self._events.model_changed(model_id)
 
-    def edit(self, model_id: str, edit: Edit) -> None:
+    def edit(self, model_id: str, edit: Edit) -> ModelRecord:
         """Makes a revision that differs from the present one by an edit.
 
         Raises:
+            NotFound: there is no such model.
             Conflict: the model is not made yet.
             Whatever `edit` raises; the model is then as before.
         """
-        with self._lock, self._folder.temporary() as temp:
-            present = self.files(model_id)
-            prepared = temp / "model"
-            _share(present, prepared)
-            edit(prepared)
-            self._switch(model_id, prepared)
-            self._index(model_id, facts_of(self.files(model_id)))
+        with self._lock:
+            self.folder(model_id)
+            self._files.edit(model_id, edit)
+            self._index(model_id, facts_of(self.folder(model_id)), updated=time.time())
         self._events.model_changed(model_id)
+        return self.get(model_id)
 
-    def files(self, model_id: str) -> Path:
-        """The model folder of the newest revision.
+    def folder(self, model_id: str) -> Path:
+        """The model folder.
 
         Raises:
-            Conflict: the model is not made yet.
+            NotFound: there is no such model.
+            Conflict: it is not made yet.
         """
-        revisions = self._revisions(model_id)
+        revisions = self._files.revisions(model_id)
         if not revisions:
             raise Conflict(f"the model {self.get(model_id).name!r} is not made yet")
         return revisions[-1]
 
-    def has_files(self, model_id: str) -> bool:
-        """Whether the model was made at least once."""
-        return bool(self._revisions(model_id))
+    def load(self, model_id: str) -> Model | None:
+        """The model itself; None where there is none or it is not made yet."""
+        return self._files.load(model_id)
 
     def delete(self, model_id: str) -> None:
         """Removes a model and its files.
@@ -175,37 +178,21 @@ class ModelStore:
             self.get(model_id)
             with self._database.write() as connection:
                 connection.execute(delete(models).where(models.c.id == model_id))
-            self._folder.discard(self._place(model_id))
+            self._files.remove(model_id)
         self._events.model_deleted(model_id)
 
     def recover(self, reason: str) -> None:
         """Brings files and index together after a crash: what was being made has failed."""
         with self._database.read() as connection:
-            status = {row.id: Status(row.status) for row in connection.execute(select(models))}
-        for place in self._folder.models.iterdir():
-            if place.name not in status:
-                self._folder.discard(place)
-        for model_id, last in status.items():
-            for stale in self._revisions(model_id)[:-1]:
-                self._folder.discard(stale)
-            if not last.ended:
+            status_of = {row.id: Status(row.status) for row in connection.execute(select(models))}
+        for model_id in self._files.known() - set(status_of):
+            self._files.remove(model_id)
+        for model_id, status in status_of.items():
+            self._files.remove_old_revisions(model_id)
+            if not status.ended:
                 self.set_status(model_id, Status.FAILED, reason)
-            elif self.has_files(model_id):
-                self._index(model_id, facts_of(self.files(model_id)))
-
-    def _place(self, model_id: str) -> Path:
-        return self._folder.models / model_id
-
-    def _revisions(self, model_id: str) -> list[Path]:
-        place = self._place(model_id)
-        return sorted(place.glob("[0-9]*")) if place.is_dir() else []
-
-    def _switch(self, model_id: str, prepared: Path) -> None:
-        revisions = self._revisions(model_id)
-        number = int(revisions[-1].name) + 1 if revisions else 1
-        self._folder.publish(prepared, self._place(model_id) / f"{number:06d}")
-        for old in revisions:
-            self._folder.discard(old)
+            if self._files.revisions(model_id):
+                self._index(model_id, facts_of(self.folder(model_id)))
 
     def _index(self, model_id: str, facts: Mapping[str, Any], **values: Any) -> None:
         self._set(
@@ -215,31 +202,17 @@ class ModelStore:
             rooms=facts["rooms"],
             area_m2=facts["area_m2"],
             labels=json.dumps(facts["labels"], ensure_ascii=False),
-            size_bytes=size_on_disk(self._place(model_id)),
-            revision=int(self.files(model_id).name),
+            size_bytes=self._files.size(model_id),
+            revision=int(self.folder(model_id).name),
         )
 
     def _set(self, model_id: str, **values: Any) -> None:
-        statement = update(models).where(models.c.id == model_id)
         with self._database.write() as connection:
-            done = connection.execute(statement.values(updated=time.time(), **values))
+            done = connection.execute(
+                update(models).where(models.c.id == model_id).values(**values)
+            )
         if done.rowcount == 0:
             raise NotFound("model", model_id)
-
-
-def _share(present: Path, prepared: Path) -> None:
-    """A copy of a revision in which the files that an edit leaves alone take no space."""
-    prepared.mkdir()
-    for source in present.iterdir():
-        copy = shutil.copyfile if source.name in EDITED_FILES else _link
-        copy(source, prepared / source.name)
-
-
-def _link(source: Path, target: Path) -> None:
-    try:
-        os.link(source, target)
-    except OSError:
-        shutil.copyfile(source, target)
 
 
 def _link_logs(connection: Connection, model_id: str, log_ids: Sequence[str]) -> None:
@@ -260,6 +233,15 @@ def _log_ids(connection: Connection, model_ids: Sequence[str]) -> dict[str, list
     for row in rows:
         grouped[row.model_id].append(row.log_id)
     return grouped
+
+
+def _row(record: ModelRecord) -> dict[str, Any]:
+    row = vars(record) | {
+        "options": json.dumps(dict(record.options)),
+        "labels": json.dumps(record.labels),
+    }
+    del row["log_ids"]
+    return row
 
 
 def _record(row: RowMapping, log_ids: Mapping[str, Sequence[str]]) -> ModelRecord:

@@ -9,14 +9,13 @@ from __future__ import annotations
 import functools
 from pathlib import Path
 
-from core.pipeline.modeller import ModellingOptions, model_log
-from core.topology.model_folder import write_model
-
 from app.jobs.tasks import Arguments, Result
 from app.storage.model_facts import facts_of
 from core.log_readers.registry import read_log
+from core.pipeline.modeller import ModellingOptions, model_log
 from core.progress import Progress, part_of
 from core.sensing.robot_log import join
+from core.topology.model_folder import write_model
 
 READING_SHARE, MODELLING_SHARE = 0.05, 0.95
 

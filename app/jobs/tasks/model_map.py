@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from core.pipeline.modeller import ModellingOptions, model_map
-from core.topology.model_folder import write_model
-
 from app.jobs.tasks import Arguments, Result
 from app.storage.model_facts import facts_of
 from core.mapping.map_server import read_map
+from core.pipeline.modeller import ModellingOptions, model_map
 from core.progress import Progress, part_of
+from core.topology.model_folder import write_model
 
 READING_SHARE, MODELLING_SHARE = 0.05, 0.95
 
