@@ -15,7 +15,7 @@ from core.simulation.floor_plan import Box, Door
 from core.simulation.furniture import Disc
 from core.simulation.home import Home
 
-MARGIN = 1.5
+MARGIN = 0.1
 """The grid reaches this far beyond the outer walls (m); all of it counts as occupied."""
 EXPLORE_STRIDE = 2
 """Every so many scans are traced to find what a drive has explored."""
@@ -42,6 +42,12 @@ class HomeTruth:
     rooms: IntArray
     names: tuple[str, ...]
     doors: tuple[Door, ...]
+
+    @property
+    def door_gaps(self) -> FloatArray:
+        """(D, 4) `x0, y0, x1, y1` of the doors, metres."""
+        gaps = [(d.gap.x0, d.gap.y0, d.gap.x1, d.gap.y1) for d in self.doors]
+        return np.array(gaps, float).reshape(-1, 4)
 
     def explored(self, log: RobotLog) -> BoolArray:
         """Free cells (rows, cols) that the sonars of a drive really swept.
