@@ -58,7 +58,7 @@ def simulate(
     from app.commands.terminal import progress_bar
     from core.log_readers.native import write_native
     from core.log_readers.ring_file import load_ring
-    from core.simulation.simulate import simulate as drive
+    from core.simulation.drive import simulate as drive
 
     known = load_ring(ring) if ring else None
     with progress_bar() as progress:
