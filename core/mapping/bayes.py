@@ -30,18 +30,20 @@ class BayesConfig:
         resolution: metres per cell.
         log_odds_empty: evidence of one reading on the beam's axis for a cell before its echo.
         log_odds_occupied: evidence of one reading on the axis for a cell at its echo.
+        trusted_range: metres; beyond, a longer reading frees less, as it is more often specular.
         limit: log-odds are held within this bound, so that a change can be learned.
         free_clearance, arc_half_thickness: metres, as in CEMAL.
         free_below, occupied_above: log-odds beyond which a cell counts as free or occupied.
     """
 
     resolution: float = DEFAULT_RESOLUTION
-    log_odds_empty: float = -0.3
-    log_odds_occupied: float = 0.8
+    log_odds_empty: float = -0.6
+    log_odds_occupied: float = 0.4
+    trusted_range: float = 1.0
     limit: float = 12.0
     free_clearance: float = 0.06
     arc_half_thickness: float = 0.05
-    free_below: float = -0.4
+    free_below: float = -1.5
     occupied_above: float = 0.6
 
 
@@ -53,8 +55,8 @@ def bayes_map(
 ) -> MapResult:
     """The log-odds map of a drive; all readings are kept.
 
-    The inverse sensor model is the directivity of eq. (4): a beam says most on its axis. Confidence
-    is the log-odds of the occupied cells.
+    The inverse sensor model is the directivity of eq. (4): a beam says most on its axis, and least
+    for empty cells close to its echo (Elfes 1989). Confidence is the log-odds of the occupied cells.
 
     Args:
         log: scans; its odometry is not looked at.
@@ -81,6 +83,7 @@ def bayes_map(
             config.limit,
             config.free_clearance,
             config.arc_half_thickness,
+            config.trusted_range,
         ]
     )
     log_odds = _log_odds(
@@ -107,8 +110,8 @@ def bayes_map(
 
 @numba.njit(cache=True)
 def _log_odds(pose, ranges, sonar, half, gain, frame, shape, capacity, model):  # type: ignore[no-untyped-def]
-    """Log-odds of all cells (flat) after all readings; `model` holds the five numbers above."""
-    empty, full, limit, clearance, thickness = model
+    """Log-odds of all cells (flat) after all readings; `model` holds the six numbers above."""
+    empty, full, limit, clearance, thickness, trusted = model
     odds = np.zeros(shape[0] * shape[1])
     cells = np.empty(capacity, np.int64)
     distance, pressure = np.empty(capacity), np.empty(capacity)
@@ -128,7 +131,9 @@ def _log_odds(pose, ranges, sonar, half, gain, frame, shape, capacity, model):  
         for k in range(n):
             weight = pressure[k] * max(distance[k], 0.1) ** 2
             if distance[k] < ranges[i] - clearance:
-                change = empty * weight
+                change = (
+                    empty * weight * (1 - distance[k] / ranges[i]) * min(1.0, trusted / ranges[i])
+                )
             elif distance[k] >= ranges[i] - thickness:
                 change = full * weight
             else:
