@@ -19,6 +19,8 @@ GZIP_MAGIC = b"\x1f\x8b"
 HEAD_BYTES = 4096
 """How much of a file the formats may look at to know their own."""
 MEBIBYTE = 2**20
+MAX_SHOWN_NAME = 200
+MAX_SHOWN_REASON = 80
 
 
 @dataclass(frozen=True)
@@ -44,26 +46,30 @@ class LogSource:
         Raises:
             LogError: there is nothing, or nothing that can be read.
         """
-        name = path.name or str(path)
-        try:
+        name = printable(path.name or str(path))
+        with reading(name):
             if path.is_dir():
                 return cls(path, name, b"", limits)
             if not path.is_file():
-                raise LogError("no such file or folder", str(path))
-            with reading(name), path.open("rb") as raw:
+                what = "neither a file nor a folder" if path.exists() else "no such file or folder"
+                raise LogError(what, name)
+            with path.open("rb") as raw:
                 head = unpacked(raw).read(HEAD_BYTES)
-        except (OSError, ValueError) as error:
-            raise LogError(f"cannot be opened ({_reason(error)})", name) from error
         if not head:
             raise LogError("the file is empty", name)
         return cls(path, name, head, limits)
 
 
 class ByteBudget:
-    """Counts what a log unpacks to, over all of its files."""
+    """Counts what a log unpacks to, over all of its files.
 
-    def __init__(self, limit: int) -> None:
-        self.limit = limit
+    Besides the limit on the whole, a log of `packed` bytes may not unpack to more than `max_ratio` times
+    that: a drive has noise in it and packs badly, a bomb does not.
+    """
+
+    def __init__(self, limits: ReadLimits, packed: int) -> None:
+        plausible = max(limits.max_ratio * packed, limits.ratio_counts_from)
+        self.limit = min(limits.max_bytes, plausible)
         self.spent = 0
 
     def spend(self, count: int, source: str) -> None:
@@ -78,6 +84,11 @@ class ByteBudget:
                 f"{source}: the log unpacks to more than {self.limit // MEBIBYTE} MB; "
                 "split the drive into shorter logs"
             )
+
+
+def printable(name: str) -> str:
+    """A file name as it may stand in a one-line message."""
+    return "".join(c if c.isprintable() else "?" for c in name[:MAX_SHOWN_NAME])
 
 
 def unpacked(raw: IO[bytes]) -> IO[bytes]:
@@ -100,7 +111,10 @@ def reading(source: str, line: Callable[[], int | None] = lambda: None) -> Itera
             line(),
         ) from error
     except (zlib.error, gzip.BadGzipFile, zipfile.BadZipFile) as error:
-        raise LogError(f"the packed file is damaged ({error})", source, line()) from error
+        reason = printable(str(error))[:MAX_SHOWN_REASON]
+        raise LogError(f"the packed file is damaged ({reason})", source, line()) from error
+    except OSError as error:
+        raise LogError(f"cannot be read ({_reason(error)})", source, line()) from error
 
 
 def numbered_lines(
@@ -126,5 +140,5 @@ def numbered_lines(
             yield number, line
 
 
-def _reason(error: Exception) -> str:
-    return getattr(error, "strerror", None) or str(error)
+def _reason(error: OSError) -> str:
+    return error.strerror or printable(str(error))[:MAX_SHOWN_REASON]

@@ -39,8 +39,8 @@ def read_delimited_text(source: LogSource, ring: SonarRing | None, progress: Pro
         TooLargeError: beyond the limits.
     """
     limits = source.limits
-    budget = ByteBudget(limits.max_bytes)
     with _folder(source) as folder:
+        budget = ByteBudget(limits, folder.packed_bytes)
         data = read_small(folder, folder.description, limits, budget)
         shown = folder.shown(folder.description)
         description = parse_description(data, shown, limits)
@@ -115,8 +115,9 @@ def _read_file(
 ) -> FileStreams:
     """One of the files, in SI units and in order of time."""
     shown = folder.shown(file.path)
-    before, size = budget.spent, max(folder.size(file.path), 1)
+    before = budget.spent
     with folder.open(file.path) as stream:
+        size = max(folder.size(file.path), 1)
         table = read_table(
             numbered_lines(stream, shown, budget, limits),
             file,

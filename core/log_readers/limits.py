@@ -11,6 +11,8 @@ class ReadLimits:
 
     Attributes:
         max_bytes: of all files of a log together, unpacked. 46 hours of 12 sonars at 4 Hz.
+        max_ratio: unpacked bytes for one packed byte; drives have 3-10.
+        ratio_counts_from: smaller logs may pack better.
         max_line_bytes: of one line.
         max_lines: of one file.
         max_readings: scans times sonars; 64 MB as an array, copied a few times while reading.
@@ -27,8 +29,10 @@ class ReadLimits:
     """
 
     max_bytes: int = 256 * 2**20
+    max_ratio: int = 100
+    ratio_counts_from: int = 16 * 2**20
     max_line_bytes: int = 2**20
-    max_lines: int = 2_000_000
+    max_lines: int = 1_000_000
     max_readings: int = 8_000_000
     max_sonars: int = 256
     max_coordinate_m: float = 10_000.0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import posixpath
 import stat
+import struct
 import zipfile
 from collections.abc import Iterator
 from contextlib import AbstractContextManager, contextmanager
@@ -11,7 +12,7 @@ from pathlib import Path
 from typing import IO, Protocol
 
 from core.errors import LogError, TooLargeError
-from core.log_readers.byte_source import ByteBudget, reading, unpacked
+from core.log_readers.byte_source import ByteBudget, printable, reading, unpacked
 from core.log_readers.limits import ReadLimits
 
 DESCRIPTION_NAMES = ("log.yaml", "log.yml")
@@ -23,9 +24,10 @@ _END_BYTES = 22 + 2**16 + 20
 
 
 class LogFolder(Protocol):
-    """Files by their relative names."""
+    """Files by their relative names; `packed_bytes` is what they take on disk altogether."""
 
     description: str
+    packed_bytes: int
 
     def open(self, name: str) -> AbstractContextManager[IO[bytes]]:
         """The bytes of a file, unpacked where it is a gzip.
@@ -47,6 +49,7 @@ class DiskFolder:
     def __init__(self, path: Path, description: str) -> None:
         self.path = path
         self.description = description
+        self.packed_bytes = sum(entry.stat().st_size for entry in path.iterdir() if entry.is_file())
 
     @contextmanager
     def open(self, name: str) -> Iterator[IO[bytes]]:
@@ -54,15 +57,12 @@ class DiskFolder:
         path = self.path / _inside(name, self.shown(self.description))
         if not path.is_file():
             raise LogError(f"there is no file {name!r} beside it", self.shown(self.description))
-        try:
-            with path.open("rb") as raw, reading(self.shown(name)):
-                yield unpacked(raw)
-        except OSError as error:
-            raise LogError(f"cannot be read ({error.strerror})", self.shown(name)) from error
+        with reading(self.shown(name)), path.open("rb") as raw:
+            yield unpacked(raw)
 
     def shown(self, name: str) -> str:
         """See `LogFolder`."""
-        return posixpath.join(self.path.name, name)
+        return printable(posixpath.join(self.path.name, name))
 
     def size(self, name: str) -> int:
         """See `LogFolder`."""
@@ -72,9 +72,10 @@ class DiskFolder:
 class ZipFolder:
     """A zip, or the one folder in it that holds the `log.yaml`."""
 
-    def __init__(self, archive: zipfile.ZipFile, shown: str) -> None:
+    def __init__(self, archive: zipfile.ZipFile, shown: str, packed_bytes: int) -> None:
         self._archive = archive
         self._shown = shown
+        self.packed_bytes = packed_bytes
         candidates = [
             name
             for name in archive.namelist()
@@ -96,12 +97,15 @@ class ZipFolder:
             raise LogError("is encrypted; make the zip without a password", shown)
         if info.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
             raise LogError("is packed in a rare way; make the zip with plain deflate", shown)
-        with reading(shown), self._archive.open(info) as raw:
-            yield unpacked(raw)
+        with reading(shown):
+            with damaged_zip(shown):
+                raw = self._archive.open(info)
+            with raw:
+                yield unpacked(raw)
 
     def shown(self, name: str) -> str:
         """See `LogFolder`."""
-        return f"{self._shown}/{name}"
+        return printable(f"{self._shown}/{name}")
 
     def size(self, name: str) -> int:
         """See `LogFolder`."""
@@ -124,10 +128,21 @@ def zip_folder(path: Path, shown: str, limits: ReadLimits) -> Iterator[ZipFolder
         TooLargeError: too many files.
     """
     _check_directory(path, shown, limits)
-    with reading(shown), zipfile.ZipFile(path) as archive:
+    with reading(shown), damaged_zip(shown):
+        archive = zipfile.ZipFile(path)
+    with archive:
         if len(archive.infolist()) > limits.max_archive_entries:
             raise TooLargeError(f"{shown}: more than {limits.max_archive_entries} files in the zip")
-        yield ZipFolder(archive, shown)
+        yield ZipFolder(archive, shown, path.stat().st_size)
+
+
+@contextmanager
+def damaged_zip(shown: str) -> Iterator[None]:
+    """Turns what `zipfile` raises on nonsense in a zip's own tables into a LogError."""
+    try:
+        yield
+    except (struct.error, ValueError, RuntimeError, NotImplementedError, IndexError) as error:
+        raise LogError(f"the zip is damaged ({type(error).__name__})", shown) from error
 
 
 def read_small(folder: LogFolder, name: str, limits: ReadLimits, budget: ByteBudget) -> bytes:

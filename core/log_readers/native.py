@@ -48,7 +48,7 @@ def read_native(source: LogSource, ring: SonarRing | None, progress: Progress) -
         TooLargeError: beyond the limits.
     """
     size = max(source.path.stat().st_size, 1)
-    budget = ByteBudget(source.limits.max_bytes)
+    budget = ByteBudget(source.limits, size)
     with source.path.open("rb") as raw:
         lines = numbered_lines(unpacked(raw), source.name, budget, source.limits)
         drive = _Drive(source, lines, ring)
