@@ -28,6 +28,8 @@ class DisplayConfig:
     """Occupied islands up to this (m2) are drawn low, and filled: a sofa's outline, not a wall."""
     furniture_reach: float = 2.6
     """... and none longer than this (m)."""
+    furniture_gap: float = 0.3
+    """Gaps in such an outline up to this (m) are overlooked."""
     hole_area: float = 0.06
     """Unknown pinholes in the floor smaller than this (m2) are filled."""
     floor_area: float = 0.25
@@ -65,7 +67,11 @@ def tidy(grid: OccupancyGrid, config: DisplayConfig | None = None) -> DisplayGri
     cells_of = 1.0 / grid.geometry.cell_area
     occupied = _without_specks(grid.occupied, config.speck_area * cells_of)
     low = _islands(
-        occupied, grid.free, config.furniture_area * cells_of, config.furniture_reach / cell
+        occupied,
+        grid.free,
+        config.furniture_area * cells_of,
+        config.furniture_reach / cell,
+        max(1, round(config.furniture_gap / 2 / cell)),
     )
     sigma = max(config.wall_smoothing / cell, 0.6)
     floor = ndimage.binary_fill_holes(grid.free)
@@ -92,22 +98,45 @@ def _without_specks(mask: BoolArray, least_cells: float) -> BoolArray:
 
 
 def _islands(
-    occupied: BoolArray, free: BoolArray, most_cells: float, most_reach: float
+    occupied: BoolArray,
+    free: BoolArray,
+    most_cells: float,
+    most_reach: float,
+    closing_cells: int,
 ) -> BoolArray:
     """Occupied pieces that are small and stand in free floor, what they enclose included."""
     labels, _ = ndimage.label(occupied, structure=np.ones((3, 3)))
     outside = ~ndimage.binary_fill_holes(free | occupied)
     at_border = ndimage.binary_dilation(outside, iterations=2)
+    reachable = _largest(free)
     low = np.zeros(occupied.shape, bool)
     for index, box in enumerate(ndimage.find_objects(labels), start=1):
         if max(side.stop - side.start for side in box) > most_reach:
             continue
         piece = labels[box] == index
-        filled = ndimage.binary_fill_holes(piece)
-        if filled.sum() > most_cells or (piece & at_border[box]).any():
+        if (piece & at_border[box]).any():
             continue
-        low[box] |= filled
+        filled = _filled(piece, closing_cells)
+        if filled.sum() <= most_cells:
+            low[box] |= piece | (filled & ~reachable[box])
     return low
+
+
+def _filled(piece: BoolArray, closing_cells: int) -> BoolArray:
+    """A piece with what it encloses, also through gaps of up to twice `closing_cells`."""
+    padded = np.pad(piece, closing_cells + 1)
+    closed = ndimage.binary_closing(padded, iterations=closing_cells)
+    inner = slice(closing_cells + 1, -closing_cells - 1)
+    return np.asarray(ndimage.binary_fill_holes(closed)[inner, inner])
+
+
+def _largest(mask: BoolArray) -> BoolArray:
+    labels, count = ndimage.label(mask)
+    if count == 0:
+        return mask
+    sizes = np.bincount(labels.ravel())
+    sizes[0] = 0
+    return np.asarray(labels == sizes.argmax())
 
 
 def _blurred(mask: BoolArray, sigma: float) -> FloatArray:

@@ -1,0 +1,163 @@
+// What a person does, and what the page does about it: the API is asked, the store is set.
+import { api } from "./api.js";
+import { confirmDialog } from "./dialogs.js";
+import { askRing } from "./panels/ring_dialog.js";
+import { ended, followJob } from "./jobs.js";
+import { go, link } from "./router.js";
+import { get, set } from "./store.js";
+import { attempt, showError, toast } from "./toasts.js";
+import { classify, sendLog, sendMap } from "./upload.js";
+
+let stopFollowing = null;
+
+export async function refreshLists() {
+  try {
+    const [logs, models] = await Promise.all([api.logs(), api.models()]);
+    set({ logs, models, offline: false });
+  } catch (error) {
+    if (error.status === 0) set({ offline: true });
+    else showError(error);
+  }
+}
+
+export async function showRoute(route) {
+  stopFollowing?.();
+  stopFollowing = null;
+  set({ job: null });
+  if (route.page === "log") await showLog(route.id);
+  else if (route.page === "model") await showModel(route.id);
+  else set({ log: null, model: null });
+}
+
+async function showLog(id) {
+  set({ model: null, log: get().log?.id === id ? get().log : null });
+  try {
+    const log = await api.log(id);
+    if (get().route.id === id) set({ log });
+  } catch (error) {
+    leave(error);
+  }
+}
+
+async function showModel(id) {
+  set({ log: null, model: get().model?.id === id ? get().model : null });
+  try {
+    const model = await api.model(id);
+    if (get().route.id !== id) return;
+    set({ model });
+    if (model.job_id && (model.status === "queued" || model.status === "running")) follow(model);
+  } catch (error) {
+    leave(error);
+  }
+}
+
+function follow(model) {
+  stopFollowing = followJob(model.job_id, (job) => {
+    set({ job });
+    if (!ended(job)) return;
+    if (job.status === "done") toast(`${model.name} is ready.`);
+    refreshLists();
+    if (get().route.id === model.id) showModel(model.id).then(() => set({ job: null }));
+  }, showError);
+}
+
+/** The 3D view says that labels changed, here or in another tab. */
+export function takeLabels(labels) {
+  const { model } = get();
+  if (!model?.nodes) return;
+  const known = model.nodes.every((node) => node.id in labels);
+  if (!known) {
+    reloadModel();
+    return;
+  }
+  if (model.nodes.some((node) => node.label !== labels[node.id])) {
+    set({ model: { ...model, nodes: model.nodes.map((node) => ({ ...node, label: labels[node.id] })) } });
+    reloadModel();
+  }
+}
+
+export async function reloadModel() {
+  const { route } = get();
+  if (route.page !== "model") return;
+  await attempt(async () => {
+    const model = await api.model(route.id);
+    if (get().route.id === route.id) set({ model });
+  });
+}
+
+export async function labelNode(node, label) {
+  const { model } = get();
+  const before = model.nodes;
+  set({ model: { ...model, nodes: before.map((item) => (item.id === node ? { ...item, label: label || null } : item)) } });
+  try {
+    const answer = await api.labelNode(model.id, node, label || null);
+    if (get().model?.id === model.id) set({ model: answer });
+    refreshLists();
+  } catch (error) {
+    if (get().model?.id === model.id) set({ model: { ...get().model, nodes: before } });
+    showError(error);
+  }
+}
+
+export async function upload(files) {
+  for (const item of classify(files)) {
+    const work = item.kind === "map" ? uploadMap(item) : uploadLog(item.file);
+    await work.catch(showError);
+  }
+}
+
+async function uploadMap({ yaml, image }) {
+  const { id } = await sendMap(yaml, image, {});
+  await refreshLists();
+  go(link.model(id));
+}
+
+async function uploadLog(file, ring) {
+  try {
+    const log = await sendLog(file, ring);
+    await refreshLists();
+    go(link.log(log.id));
+  } catch (error) {
+    const needsRing = !ring && error.status === 422 && /\bring\b/i.test(error.message);
+    const chosen = needsRing ? await askRing(file.name, error.message) : undefined;
+    if (!chosen) throw error;
+    await uploadLog(file, chosen);
+  }
+}
+
+/** Starts a model; throws so that the form can show the error beside itself. */
+export async function createModel(body) {
+  const { id } = await api.createModel(body);
+  await refreshLists();
+  go(link.model(id));
+}
+
+export async function cancelJob(id) {
+  await attempt(() => api.cancelJob(id));
+}
+
+export async function rename(kind, item, name) {
+  await attempt(async () => {
+    const answer = await (kind === "log" ? api.renameLog(item.id, name) : api.renameModel(item.id, name));
+    if (get()[kind]?.id === item.id) set({ [kind]: answer });
+    await refreshLists();
+  });
+}
+
+export async function remove(kind, item) {
+  const text = kind === "log"
+    ? "The log and its report are removed from this machine. Models that were made from it must be deleted first."
+    : "The model, its map and the names of its rooms are removed from this machine. The log stays.";
+  if (!(await confirmDialog(`Delete “${item.name}”?`, text, "Delete"))) return;
+  await attempt(async () => {
+    await (kind === "log" ? api.deleteLog(item.id) : api.deleteModel(item.id));
+    toast(`${item.name} was deleted.`);
+    if (get().route.page === kind && get().route.id === item.id) go(link.home());
+    await refreshLists();
+  });
+}
+
+function leave(error) {
+  showError(error);
+  if (error.status === 404) go(link.home());
+}

@@ -1,0 +1,53 @@
+// The HTTP API. Every failure becomes an ApiError whose message is the problem's one-line detail.
+
+export class ApiError extends Error {
+  constructor(status, detail, problem = {}) {
+    super(detail);
+    this.status = status;
+    this.problem = problem;
+  }
+}
+
+export async function request(method, path, body) {
+  const options = { method, headers: { accept: "application/json" } };
+  if (body !== undefined) {
+    options.body = JSON.stringify(body);
+    options.headers["content-type"] = "application/json";
+  }
+  let response;
+  try {
+    response = await fetch(path, options);
+  } catch {
+    throw new ApiError(0, "The server does not answer. Is EchoRooms still running?");
+  }
+  return answer(response.status, await response.text());
+}
+
+/** The JSON of an answer, or the ApiError that it means. */
+export function answer(status, text) {
+  let data = null;
+  try {
+    data = text ? JSON.parse(text) : null;
+  } catch {
+    // Not JSON: a proxy's error page, perhaps.
+  }
+  if (status >= 200 && status < 300) return data;
+  throw new ApiError(status, data?.detail || `The server answered with ${status}.`, data ?? {});
+}
+
+const id = encodeURIComponent;
+
+export const api = {
+  logs: () => request("GET", "api/logs"),
+  log: (log) => request("GET", `api/logs/${id(log)}`),
+  renameLog: (log, name) => request("PATCH", `api/logs/${id(log)}`, { name }),
+  deleteLog: (log) => request("DELETE", `api/logs/${id(log)}`),
+  models: () => request("GET", "api/models"),
+  model: (model) => request("GET", `api/models/${id(model)}`),
+  createModel: (body) => request("POST", "api/models", body),
+  renameModel: (model, name) => request("PATCH", `api/models/${id(model)}`, { name }),
+  deleteModel: (model) => request("DELETE", `api/models/${id(model)}`),
+  labelNode: (model, node, label) => request("PATCH", `api/models/${id(model)}/nodes/${id(node)}`, { label }),
+  job: (job) => request("GET", `api/jobs/${id(job)}`),
+  cancelJob: (job) => request("DELETE", `api/jobs/${id(job)}`),
+};

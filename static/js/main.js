@@ -1,0 +1,58 @@
+// Puts the page together.
+import { refreshLists, reloadModel, showRoute, takeLabels, upload } from "./actions.js";
+import { details } from "./panels/details.js";
+import { layers } from "./panels/layers.js";
+import { chooseFiles, library } from "./panels/library.js";
+import { renameSelected } from "./panels/node_table.js";
+import { stage } from "./panels/stage.js";
+import { screenshot, topbar } from "./panels/topbar.js";
+import { go, link, startRouter } from "./router.js";
+import { helpDialog, shortcut, startShortcuts } from "./shortcuts.js";
+import { get } from "./store.js";
+import { toggleTheme } from "./theme.js";
+import { toast } from "./toasts.js";
+import { acceptDrops } from "./upload.js";
+import { measure, moveCamera, onView, select } from "./view3d.js";
+
+const REFRESH_MS = 15_000;
+
+const byId = (id) => document.getElementById(id);
+
+topbar(byId("topbar"));
+library(byId("library"));
+layers(byId("library"));
+stage(byId("stage"));
+details(byId("details"));
+
+onView({
+  onLabels: takeLabels,
+  onChanged: reloadModel,
+  onSelected: (node) => document.querySelector(`tr[data-node="${CSS.escape(node ?? "")}"]`)?.scrollIntoView({ block: "nearest" }),
+  onDeleted: () => {
+    toast("This model was deleted.", { kind: "error" });
+    refreshLists();
+    go(link.home());
+  },
+});
+
+const toggleSide = (side) => () => document.body.classList.toggle(`hide-${side}`);
+shortcut("/", "search models and logs", () => byId("search").focus());
+shortcut("u", "upload files", chooseFiles);
+shortcut("1", "3D view", () => moveCamera("3d"));
+shortcut("2", "top view", () => moveCamera("top"));
+shortcut("f", "show everything", () => moveCamera("fit"));
+shortcut("m", "measure a distance", () => measure(!get().measuring));
+shortcut("r", "rename the selected room", renameSelected);
+shortcut("p", "save a picture", screenshot);
+shortcut("t", "light or dark", toggleTheme);
+shortcut("[", "hide or show the left column", toggleSide("left"));
+shortcut("]", "hide or show the right column", toggleSide("right"));
+shortcut("?", "this help", helpDialog);
+shortcut("Escape", "end measuring, select nothing", () => (get().measuring ? measure(false) : select(null)));
+startShortcuts();
+
+acceptDrops(upload);
+startRouter(showRoute);
+refreshLists();
+setInterval(() => document.visibilityState === "visible" && refreshLists(), REFRESH_MS);
+addEventListener("focus", refreshLists);

@@ -1,0 +1,29 @@
+// The right column: the rooms of a model, or the form that makes one from a log.
+import { h, replace } from "../dom.js";
+import { get, watch } from "../store.js";
+import { modelFacts } from "./model_facts.js";
+import { modellingForm } from "./modelling_form.js";
+import { nodeTable } from "./node_table.js";
+import { selection } from "./selection.js";
+
+export function details(root) {
+  const table = h("section", {});
+  const chosen = h("section", { class: "selection", "aria-live": "polite" });
+  const facts = h("section", {});
+  const rooms = h("div", { class: "stack" }, table, chosen, facts);
+  const form = h("div", { class: "stack" });
+  replace(root, rooms, form);
+  nodeTable(table);
+  selection(chosen);
+  modelFacts(facts);
+  watch(["route", "log", "model"], () => {
+    const { log, model, route } = get();
+    const showsRooms = route.page === "model" && model?.status === "done";
+    const showsForm = route.page === "log" && log !== null;
+    rooms.hidden = !showsRooms;
+    form.hidden = !showsForm;
+    root.hidden = !showsRooms && !showsForm;
+    if (showsForm && form.dataset.log !== log.id) replace(form, modellingForm(log));
+    form.dataset.log = showsForm ? log.id : "";
+  });
+}

@@ -1,0 +1,32 @@
+// Which layers the 3D view shows in this tab.
+import { h } from "../dom.js";
+import { watch } from "../store.js";
+import { showLayer } from "../view3d.js";
+
+/** Layers that a person can switch, in order; those that need a localization come with it. */
+const LAYERS = [
+  ["grid", "grid", "the occupancy grid"],
+  ["regions", "regions", "coloured regions"],
+  ["walls", "walls", "walls and furniture"],
+  ["cells", "cells", "quadtree cells that the regions are made of"],
+  ["graph", "graph", "nodes and the ways between them"],
+  ["labels", "labels", "names"],
+  ["trajectory", "trajectory", "where the robot drove"],
+];
+
+export function layers(root) {
+  const boxes = new Map(LAYERS.map(([name, text, tip]) => {
+    const box = h("input", { type: "checkbox", id: `layer-${name}`, onchange: () => showLayer(name, box.checked) });
+    return [name, { box, label: h("label", { class: "check", for: `layer-${name}`, title: tip }, box, text) }];
+  }));
+  const section = h("section", { class: "layers" }, h("h2", {}, "Layers"),
+    h("div", { class: "checks" }, [...boxes.values()].map((item) => item.label)));
+  root.append(section);
+  watch(["layers", "connection"], (state) => {
+    section.hidden = state.connection === "none";
+    for (const [name, { box, label }] of boxes) {
+      label.hidden = !(name in state.layers);
+      box.checked = Boolean(state.layers[name]);
+    }
+  });
+}

@@ -1,0 +1,28 @@
+// How the open model was made.
+import { h, replace } from "../dom.js";
+import { bytes, count, when } from "../format.js";
+import { link } from "../router.js";
+import { watch } from "../store.js";
+
+const WORDS = { mode: "Regions", regions: "Number asked", method: "Method", mapping: "Map", odometry: "Odometry", resolution: "Resolution" };
+
+export function modelFacts(root) {
+  watch(["model", "logs"], ({ model, logs }) => {
+    if (!model || model.status !== "done") {
+      replace(root);
+      return;
+    }
+    const options = Object.entries(WORDS).filter(([key]) => model.options[key] !== undefined && model.options[key] !== null);
+    replace(root, h("details", { class: "advanced" }, h("summary", {}, "About this model"), h("dl", { class: "facts" },
+      fact("Floor", `${model.area_m2.toFixed(0)} m², ${count(model.node_count, "region")}, ${count(model.room_count, "room")}`),
+      fact("Made", when(model.created)),
+      fact("Log", model.log_ids.length ? model.log_ids.map((id) => h("a", { href: link.log(id) }, logs?.find((log) => log.id === id)?.name ?? id)) : "an imported map"),
+      options.map(([key, name]) => fact(name, key === "resolution" ? `${(100 * model.options[key]).toFixed(1).replace(/\.0$/, "")} cm` : String(model.options[key]))),
+      fact("On disk", bytes(model.size_bytes)),
+    )));
+  });
+}
+
+function fact(name, value) {
+  return [h("dt", {}, name), h("dd", {}, value)];
+}

@@ -1,0 +1,89 @@
+// The table of nodes: click to select, type to rename. Rows are kept, so that typing is never disturbed.
+import { h, replace } from "../dom.js";
+import { labelNode } from "../actions.js";
+import { area, nodeName } from "../format.js";
+import { get, watch } from "../store.js";
+import { select } from "../view3d.js";
+
+export function nodeTable(root) {
+  const body = h("tbody", {});
+  const rows = new Map();
+  replace(root,
+    h("h2", {}, "Rooms", h("small", {}, "click to select, type to rename")),
+    h("table", { class: "nodes" },
+      h("thead", {}, h("tr", {},
+        h("th", { scope: "col" }, h("span", { class: "unseen" }, "Colour")), h("th", { scope: "col" }, "name"),
+        h("th", { scope: "col", class: "num" }, "m²"), h("th", { scope: "col", class: "num" }, "doors"),
+        h("th", { scope: "col", class: "num", title: "share of pairs of points that do not see each other; 0 is convex" }, "hidden"),
+      )), body),
+  );
+  watch(["model", "colours", "selected"], ({ model, colours, selected }) => {
+    const nodes = model?.nodes ?? [];
+    const ids = nodes.map((node) => node.id).join("\n");
+    if (body.dataset.ids !== ids) {
+      body.dataset.ids = ids;
+      rows.clear();
+      for (const node of nodes) rows.set(node.id, row(node.id));
+      replace(body, nodes.map((node) => rows.get(node.id).element));
+    }
+    for (const node of nodes) rows.get(node.id).update(node, doors(model, node.id), colours[node.id], node.id === selected);
+  });
+}
+
+/** Puts the cursor into the name of the selected node. */
+export function renameSelected() {
+  document.querySelector("tr.selected input")?.focus();
+}
+
+export function doors(model, id) {
+  return model.edges.filter((edge) => edge.source === id || edge.target === id).length;
+}
+
+function row(id) {
+  const swatch = h("span", { class: "swatch" });
+  const input = h("input", { class: "node-name", maxlength: 80, autocomplete: "off", spellcheck: false });
+  const cells = [0, 1, 2].map(() => h("td", { class: "num" }));
+  const element = h("tr", { dataset: { node: id }, onclick: () => select(id) },
+    h("td", {}, swatch), h("td", { class: "name-cell" }, input), cells);
+  let saved = "";
+  const commit = () => {
+    const label = input.value.trim();
+    if (label !== saved) {
+      saved = label;
+      labelNode(id, label);
+    }
+  };
+  input.addEventListener("focus", () => {
+    if (get().selected !== id) select(id);
+    input.select();
+  });
+  input.addEventListener("keydown", (event) => {
+    if (event.key === "Enter") {
+      commit();
+      input.blur();
+    } else if (event.key === "Escape") {
+      input.value = saved;
+      input.blur();
+      event.stopPropagation();
+    } else if (event.key === "ArrowDown" || event.key === "ArrowUp") {
+      const next = event.key === "ArrowDown" ? element.nextElementSibling : element.previousElementSibling;
+      next?.querySelector("input").focus();
+      event.preventDefault();
+    }
+  });
+  input.addEventListener("blur", commit);
+  const update = (node, doorCount, colour, isSelected) => {
+    element.classList.toggle("selected", isSelected);
+    element.setAttribute("aria-selected", String(isSelected));
+    swatch.style.background = colour ?? "var(--line-strong)";
+    const stored = node.label ?? "";
+    if (stored !== saved || document.activeElement !== input) {
+      if (document.activeElement !== input || input.value === saved) input.value = stored;
+      saved = stored;
+    }
+    input.placeholder = `Region ${node.region}`;
+    input.setAttribute("aria-label", `Name of ${nodeName(node)}`);
+    [area(node.area_m2), doorCount, node.convexity.toFixed(2)].forEach((text, index) => replace(cells[index], text));
+  };
+  return { element, update };
+}

@@ -1,0 +1,50 @@
+// Keys. The 3D view hands its keys over (it keeps W A S D Q E and the arrows for its camera).
+import { h } from "./dom.js";
+import { openDialog } from "./dialogs.js";
+
+const shortcuts = new Map(); // key -> {run, text}
+
+export function shortcut(key, text, run) {
+  shortcuts.set(key, { run, text });
+}
+
+export function startShortcuts() {
+  addEventListener("keydown", (event) => {
+    if (press(event)) event.preventDefault();
+  });
+}
+
+/** Runs the shortcut of a key event (or of one that the 3D view reports); true if there is one. */
+export function press({ key, ctrlKey, metaKey, altKey, target }) {
+  if (ctrlKey || metaKey || altKey || document.querySelector("dialog[open]")) return false;
+  const typing = target instanceof Element && target.closest("input:not([type=checkbox]):not([type=radio]), textarea, select");
+  if (typing) return false;
+  const found = shortcuts.get(key.length === 1 ? key.toLowerCase() : key);
+  if (!found) return false;
+  found.run();
+  return true;
+}
+
+export function helpDialog() {
+  const row = (key, text) => h("tr", {}, h("th", { scope: "row" }, h("kbd", {}, key)), h("td", {}, text));
+  const page = (file, title, text) => h("li", {}, h("a", { href: `docs/${file}`, target: "_blank", rel: "noopener" }, title), h("span", {}, text));
+  return openDialog("Help", () => h("div", { class: "help" },
+    h("section", {}, h("h3", {}, "Pages"), h("ul", { class: "help-pages" },
+      page("getting-started.html", "Getting started", "from a drive to named rooms"),
+      page("log-format.html", "Log format", "what a log looks like, line by line"),
+      page("log-yaml.html", "Other text files", "a log.yaml that describes them"),
+      page("api.html", "API by curl", "everything that this page does, from a script"),
+      h("li", {}, h("a", { href: "docs", target: "_blank", rel: "noopener" }, "API reference"), h("span", {}, "every address and field")),
+    )),
+    h("section", {}, h("h3", {}, "Keys"),
+      h("table", { class: "keys" }, h("tbody", {},
+        [...shortcuts].map(([key, { text }]) => row(KEY_NAMES[key] ?? key.toUpperCase(), text)),
+        row("W A S D", "move the camera (in the 3D view)"),
+        row("← ↑ → ↓", "turn the camera (in the 3D view)"),
+      )),
+      h("p", { class: "muted" }, "Mouse: drag turns, right drag moves, the wheel zooms; a click selects."),
+    ),
+  ), { wide: true });
+}
+
+const KEY_NAMES = { Escape: "Esc" };

@@ -1,0 +1,54 @@
+// What the page knows. Panels read it and hear of the keys that they draw.
+
+const state = {
+  logs: null, // summaries, null until loaded
+  models: null,
+  route: { page: "home", id: null },
+  log: null, // detail of the log that is shown
+  model: null, // detail of the model that is shown
+  job: null, // the job that makes the shown model
+  selected: null, // node id
+  layers: {}, // name -> shown, as the 3D view says
+  colours: {}, // node id -> #rrggbb
+  view: "3d",
+  connection: "none", // none | connecting | ready | lost
+  measuring: false,
+  measured: null, // {points, distance_m}
+  uploads: [], // {id, name, share, error}
+  offline: false,
+};
+
+const listeners = new Set();
+let pending = null;
+
+export function get() {
+  return state;
+}
+
+/** Changes keys; listeners run once, after the code that is running now. */
+export function set(changes) {
+  const changed = Object.keys(changes).filter((key) => state[key] !== changes[key]);
+  if (changed.length === 0) return;
+  Object.assign(state, changes);
+  if (pending === null) {
+    pending = new Set();
+    queueMicrotask(flush);
+  }
+  for (const key of changed) pending.add(key);
+}
+
+/** Runs `draw` now and after every change of one of the keys. */
+export function watch(keys, draw) {
+  const listener = { keys: new Set(keys), draw };
+  listeners.add(listener);
+  draw(state);
+  return () => listeners.delete(listener);
+}
+
+function flush() {
+  const keys = pending;
+  pending = null;
+  for (const listener of [...listeners]) {
+    if ([...keys].some((key) => listener.keys.has(key))) listener.draw(state);
+  }
+}

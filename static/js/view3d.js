@@ -1,0 +1,170 @@
+// The 3D view in an iframe, and the channel over which the page and its view talk.
+import { h } from "./dom.js";
+import { token } from "./format.js";
+import { press } from "./shortcuts.js";
+import { get, set } from "./store.js";
+import { onTheme, theme } from "./theme.js";
+
+const TAB_KEY = "echorooms.tab";
+const RETRY_MS = [500, 1000, 2000, 4000, 8000];
+const NO_SUCH_MODEL = 4404;
+
+let current = null; // {model, socket, frame, tries, timer}
+const handlers = {};
+
+/** Hears what the view says: onLabels, onSelected, onChanged, onDeleted. */
+export function onView(events) {
+  Object.assign(handlers, events);
+}
+
+/** Shows a model in `frameBox`; the same model again changes nothing. */
+export function openView(model, frameBox) {
+  if (current?.model === model && current.frame.isConnected) return;
+  closeView();
+  const frame = h("iframe", {
+    class: "view3d",
+    title: "3D view of the map",
+    src: `view/${encodeURIComponent(model)}/tab/${tabToken()}/`,
+  });
+  frame.addEventListener("load", sendTheme);
+  current = { model, frame, socket: null, tries: 0, timer: null };
+  set({ connection: "connecting", selected: null, colours: {}, measuring: false, measured: null, view: "3d" });
+  frameBox.append(frame);
+  connect(current);
+}
+
+export function closeView() {
+  if (!current) return;
+  const closing = current;
+  current = null;
+  clearTimeout(closing.timer);
+  closing.socket?.close();
+  closing.frame.remove();
+  set({ connection: "none", selected: null, measuring: false, measured: null });
+}
+
+export function frameCanvas() {
+  return current?.frame.contentDocument?.querySelector("canvas") ?? null;
+}
+
+export function focusView() {
+  current?.frame.focus();
+}
+
+function tell(message) {
+  if (current?.socket?.readyState === WebSocket.OPEN) current.socket.send(JSON.stringify(message));
+}
+
+export function select(node) {
+  set({ selected: node });
+  tell({ type: "select", node });
+}
+
+export function showLayer(name, shown) {
+  set({ layers: { ...get().layers, [name]: shown } });
+  tell({ type: "layers", layers: { [name]: shown } });
+}
+
+export function moveCamera(view) {
+  tell({ type: "camera", view });
+}
+
+export function measure(on) {
+  set({ measuring: on, measured: null });
+  tell({ type: "measure", on });
+}
+
+function connect(view) {
+  const socket = new WebSocket(new URL(
+    `view/${encodeURIComponent(view.model)}/events?tab=${tabToken()}`, document.baseURI,
+  ).href.replace(/^http/, "ws"));
+  view.socket = socket;
+  socket.onopen = () => {
+    view.tries = 0;
+    tell({ type: "theme", theme: theme() });
+    sendHeight();
+  };
+  socket.onmessage = (event) => {
+    if (view === current) hear(JSON.parse(event.data));
+  };
+  socket.onclose = (event) => {
+    if (view !== current) return;
+    set({ connection: "lost" });
+    if (event.code === NO_SUCH_MODEL) return;
+    view.timer = setTimeout(() => connect(view), RETRY_MS[Math.min(view.tries, RETRY_MS.length - 1)]);
+    view.tries += 1;
+  };
+}
+
+function hear(message) {
+  switch (message.type) {
+    case "hello":
+      set({ layers: message.layers, colours: message.colours, selected: message.selected });
+      handlers.onLabels?.(message.labels);
+      break;
+    case "ready":
+      set({ connection: message.connected ? "ready" : get().connection === "ready" ? "lost" : "connecting" });
+      break;
+    case "selected":
+      set({ selected: message.node });
+      handlers.onSelected?.(message.node);
+      break;
+    case "labels":
+      set({ colours: message.colours });
+      handlers.onLabels?.(message.labels);
+      break;
+    case "camera":
+      set({ view: message.view });
+      break;
+    case "measured":
+      set({ measured: message });
+      break;
+    case "model_changed":
+      handlers.onChanged?.(current.model);
+      break;
+    case "model_deleted":
+      handlers.onDeleted?.(current.model);
+      break;
+  }
+}
+
+function sendTheme() {
+  current?.frame.contentWindow?.postMessage({ type: "theme", theme: theme() }, location.origin);
+}
+
+function sendHeight() {
+  const height = current?.frame.clientHeight;
+  if (height) tell({ type: "viewport", height });
+}
+
+/** One token per tab; a copied tab gets its own, since session storage is copied with it. */
+function tabToken() {
+  if (!tabToken.value) {
+    const navigation = performance.getEntriesByType("navigation")[0]?.type;
+    let kept = null;
+    try {
+      kept = navigation === "reload" ? sessionStorage.getItem(TAB_KEY) : null;
+    } catch {
+      kept = null;
+    }
+    tabToken.value = kept ?? token();
+    try {
+      sessionStorage.setItem(TAB_KEY, tabToken.value);
+    } catch {
+      // Without storage a reload is a new tab.
+    }
+  }
+  return tabToken.value;
+}
+
+addEventListener("resize", () => sendHeight());
+addEventListener("message", (event) => {
+  if (event.origin !== location.origin || event.source !== current?.frame.contentWindow) return;
+  if (event.data?.type === "key") {
+    press({ key: String(event.data.key), ctrlKey: event.data.ctrl, metaKey: event.data.meta, altKey: event.data.alt, target: null });
+  }
+});
+onTheme((chosen) => {
+  sendTheme();
+  tell({ type: "theme", theme: chosen });
+});
