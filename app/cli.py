@@ -9,6 +9,7 @@ from typing import Annotated
 import typer
 
 from app.commands.demo import demo
+from app.commands.localize import localize
 from app.commands.map import map_log
 from app.commands.model import model
 from app.commands.serve import serve
@@ -53,6 +54,7 @@ app.command("serve")(serve)
 app.command("simulate")(simulate)
 app.command("map")(map_log)
 app.command("model")(model)
+app.command("localize")(localize)
 
 
 def main(arguments: list[str] | None = None) -> None:
