@@ -54,7 +54,7 @@ class LogSource:
                 what = "neither a file nor a folder" if path.exists() else "no such file or folder"
                 raise LogError(what, name)
             with path.open("rb") as raw:
-                head = unpacked(raw).read(HEAD_BYTES)
+                head = _head(raw)
         if not head:
             raise LogError("the file is empty", name)
         return cls(path, name, head, limits)
@@ -138,6 +138,18 @@ def numbered_lines(
                 raise TooLargeError(f"{source}: more than {limits.max_lines} lines")
             budget.spend(len(line), source)
             yield number, line
+
+
+def _head(raw: IO[bytes]) -> bytes:
+    """The first bytes of a file, unpacked; a gzip that ends early gives what is there."""
+    data = raw.read(HEAD_BYTES)
+    if data[:2] != GZIP_MAGIC:
+        return data
+    unpacker = zlib.decompressobj(zlib.MAX_WBITS | 16)  # with a gzip header
+    head = unpacker.decompress(data, HEAD_BYTES)
+    if not head and not unpacker.eof:
+        raise EOFError
+    return head
 
 
 def _reason(error: OSError) -> str:

@@ -100,8 +100,8 @@ def _refuse_nonsense(
             source,
             int(lines[first + 1]),
         )
-    if not (steps > 0).any() and len(back) == 0:
-        raise LogError(f"all {len(t)} rows have the same time", source, int(lines[1]))
+    if not (steps > 0).any():
+        raise LogError(f"the time does not advance in any of {len(t)} rows", source, int(lines[1]))
 
 
 def _without_backward_steps(
@@ -121,9 +121,7 @@ def _without_backward_steps(
             last = int(i) + (int(ahead[0]) if len(ahead) else 1)
             late[i:last] = True
             continue
-        period = next(
-            (p for p in config.wrap_periods if 0 < t[i] + p - before <= config.step_s), None
-        )
+        period = _wrap_period(float(before), float(t[i]), config)
         shift = before + usual - t[i] if period is None else period
         offset[i:] += shift
         what = "set back" if period is None else "started again"
@@ -133,6 +131,17 @@ def _without_backward_steps(
             )
         )
     return t + offset, late, changes
+
+
+def _wrap_period(before: float, after: float, config: ClockConfig) -> float | None:
+    """The period of a counter that runs from 0 (or, signed, from minus half its period) and that went
+    from `before` to `after` when it started again, or None."""
+    for period in config.wrap_periods:
+        for start in (0.0, -period / 2):
+            top = start + period - config.step_s <= before <= start + period
+            if top and start <= after <= start + config.step_s and after + period > before:
+                return period
+    return None
 
 
 def _without_long_steps(

@@ -27,14 +27,14 @@ class LatchConfig:
     Attributes:
         change_m: a large change is more than this ...
         change_steps: ... and more than so many steps of the sensor's resolution.
-        resolution_percentile: the resolution is this percentile of a channel's non-zero changes.
+        resolution_percentile: the resolution is this percentile of the steps between a channel's values.
         share: a channel latches when this share of its stretches is longer than one row.
         stretches: fewer stretches are no evidence; the ring as a whole then decides for the channel.
     """
 
-    change_m: float = 0.02
-    change_steps: float = 1.5
-    resolution_percentile: float = 5.0
+    change_m: float = 0.025
+    change_steps: float = 2.5
+    resolution_percentile: float = 25.0
     share: float = 0.4
     stretches: int = 15
 
@@ -59,12 +59,10 @@ def measured_anew(ranges: FloatArray, config: LatchConfig = LatchConfig()) -> Bo
 
 def _stretch_lengths(values: FloatArray, config: LatchConfig) -> IntArray:
     """Lengths of the runs of one channel (N,) that lie between two large changes."""
-    with np.errstate(invalid="ignore"):
-        changes = np.abs(np.diff(values))
-        changes = changes[changes > 0]
-    if not len(changes):
+    spacing = np.diff(np.unique(values[np.isfinite(values)]))
+    if not len(spacing):
         return np.zeros(0, np.int64)
-    resolution = float(np.percentile(changes, config.resolution_percentile))
+    resolution = float(np.percentile(spacing, config.resolution_percentile))
     large = max(config.change_m, config.change_steps * resolution)
     starts = _run_starts(values)
     with np.errstate(invalid="ignore"):

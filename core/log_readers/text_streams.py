@@ -55,7 +55,7 @@ def streams_of(
     """
     if len(table.values) * ring_size > limits.max_readings:
         raise TooLargeError(f"{source}: more than {limits.max_readings} readings")
-    t = table.values[:, 0] * file.units.second + file.time_offset
+    t = table.values[:, 0] * file.units.second
     _check(np.abs(t) <= limits.max_time_s, "no time in its column", table, source)
     place = 1
     poses = truth = None
@@ -69,7 +69,7 @@ def streams_of(
     return FileStreams(
         source,
         table.lines[keep],
-        time.t[keep],
+        time.t[keep] + file.time_offset,
         None if poses is None else poses[keep],
         None if truth is None else truth[keep],
         _sonars(file, ring_size, source),
