@@ -12,6 +12,7 @@ from app.api.dependencies import SearchQuery, ServicesDep, SortingDep
 from app.api.form_schema import file_part, form_body, text_part
 from app.api.schemas import LogDetail, LogSummary, NameBody
 from app.api.upload_form import receive_form
+from app.jobs.reading import read_upload
 from app.services import Services
 from app.storage.records import LogRecord
 
@@ -69,8 +70,7 @@ async def keep_log(services: Services, upload: Path, ring: str | None, temp: Pat
     """
     prepared = temp / "log"
     arguments = {"upload": str(upload), "ring": ring, "out": str(prepared)}
-    async with services.reading_slots:
-        summary = await services.pool.run("read_log", arguments, services.reading_limits)
+    summary = await read_upload(services, "read_log", arguments)
     return await asyncio.to_thread(services.logs.add, prepared, summary)
 
 

@@ -21,6 +21,7 @@ from app.api.schemas import (
 )
 from app.api.upload_form import parse_fields, receive_form
 from app.jobs.modelling import continue_model, model_a_log, model_a_map
+from app.jobs.reading import read_upload
 from app.services import Services
 from app.storage.model_facts import TOPOLOGY_FILE, read_json
 from app.storage.records import ModelRecord
@@ -56,8 +57,7 @@ async def import_map(request: Request, services: ServicesDep) -> Accepted:
         yaml, image, source = form.file("yaml"), form.file("image"), temp / "source"
         fields = parse_fields(ImportFields, form.fields)
         arguments = {"yaml": str(yaml.path), "image": str(image.path), "out": str(source)}
-        async with services.reading_slots:
-            await services.pool.run("check_map", arguments, services.reading_limits)
+        await read_upload(services, "check_map", arguments)
         name = fields.name or yaml.path.stem
         model, job = await model_a_map(services, source, name, fields.options())
     return Accepted(id=model.id, job_id=job.id)

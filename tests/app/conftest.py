@@ -113,3 +113,26 @@ def wait_for_job() -> Callable[..., dict[str, Any]]:
         pytest.fail(f"job {job_id} did not end in {seconds} s: {job}")
 
     return wait
+
+
+@pytest.fixture(scope="session")
+def make_model(
+    upload: Callable[..., dict[str, Any]], wait_for_job: Callable[..., dict[str, Any]]
+) -> Callable[..., str]:
+    """Models a small log offline and returns the model's id."""
+
+    def make(client: TestClient, log_id: str | None = None, regions: int = 3) -> str:
+        body = {"log_id": log_id or upload(client)["id"], "mode": "offline", "regions": regions}
+        accepted = client.post("/api/models", json=body)
+        assert accepted.status_code == 202, accepted.text
+        job = wait_for_job(client, accepted.json()["job_id"])
+        assert job["status"] == "done", job
+        return str(accepted.json()["id"])
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def shared_model(shared_client: TestClient, make_model: Callable[..., str]) -> str:
+    """A finished model of three regions on the shared server; tests leave it without labels."""
+    return make_model(shared_client)
