@@ -20,6 +20,7 @@ class VerdictConfig:
         scans: fewer are too few.
         distance_m: a shorter drive shows too little.
         still_m, still_rad: a robot that stays within these does not move.
+        changing_m: ranges whose middle eight tenths spread over more than this tell of a robot that moves.
         spin_m, spin_rad: a robot that stays within so little and turns more spins on the spot.
         no_echo: a larger share of no echo leaves nothing to map.
         dead: a sonar with a larger share of no echo is dead ...
@@ -27,7 +28,9 @@ class VerdictConfig:
         stuck: a sonar of which this share of the echoes is one value is stuck ...
         stuck_echoes: ... if it has as many echoes.
         sentinel: the largest value in more than this share of readings may stand for no echo.
-        step_m, step_rad: scans farther apart than this leave holes; 90th percentile while moving.
+        step_m, step_rad: scans farther apart than this leave holes ...
+        wide_percentile: ... if this percentile of the steps is, of those in which the robot moves ...
+        moving_m, moving_rad: ... by more than this.
         lost_share: share of the distance driven in gaps that is too much.
         too_long_share: share of readings beyond the sonars' range that points to wrong units.
         faulty_share: share of faulty sonars that is too much.
@@ -37,6 +40,7 @@ class VerdictConfig:
     distance_m: float = 3.0
     still_m: float = 0.1
     still_rad: float = 0.2
+    changing_m: float = 0.5
     spin_m: float = 0.5
     spin_rad: float = 3.14
     no_echo: float = 0.95
@@ -47,6 +51,9 @@ class VerdictConfig:
     sentinel: float = 0.1
     step_m: float = 0.3
     step_rad: float = 0.45
+    wide_percentile: float = 90.0
+    moving_m: float = 0.01
+    moving_rad: float = 0.02
     lost_share: float = 0.2
     too_long_share: float = 0.5
     faulty_share: float = 0.5
@@ -102,8 +109,8 @@ def _little_movement(drive: Drive) -> Remark | None:
     config, steps = drive.config, drive.steps
     turned = float(steps.radians.sum())
     if steps.extent_m < config.still_m and turned < config.still_rad:
-        spread = np.ptp(np.nan_to_num(drive.log.ranges), axis=0)
-        if (spread > config.distance_m / 2).mean() > config.faulty_share:
+        changing = [_spread(channel) > config.changing_m for channel in drive.log.ranges.T]
+        if np.mean(changing) > config.faulty_share:
             return Remark(
                 "The odometry stands still although the ranges change.",
                 True,
@@ -179,10 +186,13 @@ def _hidden_no_echo(drive: Drive) -> Remark | None:
 
 def _wide_steps(drive: Drive) -> Remark | None:
     config, steps = drive.config, drive.steps
-    moving = steps.metres > config.still_m * 0.1
-    turning = steps.radians > config.still_rad * 0.1
-    far = float(np.percentile(steps.metres[moving], 90)) if moving.any() else 0.0
-    wide = float(np.percentile(steps.radians[turning], 90)) if turning.any() else 0.0
+    moving = (steps.metres > config.moving_m) | (steps.radians > config.moving_rad)
+    if not moving.any():
+        return None
+    far, wide = (
+        float(np.percentile(step[moving], config.wide_percentile))
+        for step in (steps.metres, steps.radians)
+    )
     if far <= config.step_m and wide <= config.step_rad:
         return None
     what = f"{far:.2f} m" if far > config.step_m else f"{np.degrees(wide):.0f} degrees"
@@ -249,6 +259,12 @@ _CHECKS: tuple[Callable[[Drive], Remark | None], ...] = (
     _jumps,
     _latched,
 )
+
+
+def _spread(channel: AnyArray) -> float:
+    """Distance between the first and the last tenth of the echoes of a sonar (N,); 0 without echoes."""
+    values = channel[np.isfinite(channel)]
+    return float(np.ptp(np.percentile(values, (10, 90)))) if len(values) else 0.0
 
 
 def _top_share(channel: AnyArray, at_least: int) -> float:

@@ -80,7 +80,7 @@ def _pioneer(table: tuple[tuple[int, int, int], ...]) -> list[Sonar]:
 def _presets() -> dict[str, SonarRing]:
     front = _pioneer(_P3DX_FRONT_MM_DEG)
     rear = _pioneer(_P3DX_REAR_MM_DEG)
-    rear_clockwise = rear[4:] + rear[:4]
+    rear_clockwise = rear[::-1]
     return {
         "paper-12": circle(12),
         "circle-8": circle(8),
