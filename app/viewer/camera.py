@@ -19,9 +19,9 @@ class CameraConfig:
     """Seen from the south, so that x runs to the right as in the top view."""
     fov_top: float = np.deg2rad(6.0)
     """From far away and narrow: looks orthographic."""
-    fill: float = 0.90
+    fill: float = 0.94
     """Share of the picture that the home takes."""
-    headroom: float = 1.9
+    headroom: float = 1.5
     """Metres above the floor that must be in the picture, labels included."""
 
 

@@ -77,6 +77,7 @@ def tidy(grid: OccupancyGrid, config: DisplayConfig | None = None) -> DisplayGri
     floor = ndimage.binary_fill_holes(grid.free)
     holes = floor & ~grid.free & ~occupied
     floor = grid.free | (holes ^ _without_specks(holes, config.hole_area * cells_of))
+    floor |= grid.occupied & ~occupied
     floor = _without_specks(floor & ~low, config.floor_area * cells_of)
     return DisplayGrid(
         floor=np.asarray(floor),

@@ -50,7 +50,7 @@ class FloorConfig:
     shadow_reach: float = 0.25
     margin: float = 0.8
     """Added around the grid, for the shadow."""
-    line_width: float = 0.035
+    line_width: float = 0.025
     """Half the width of the line between two regions."""
 
 
@@ -89,7 +89,7 @@ def region_picture(
     resolution: float,
 ) -> Picture:
     """The regions in their colours, with smooth borders, darkened softly along the walls."""
-    labels = smooth_labels(_under_walls(regions, display.solid), scale)
+    labels = smooth_labels(_under_walls(regions, display.solid | display.floor), scale)
     pixel = resolution / scale
     table = np.zeros((int(labels.max()) + 1, 3))
     for region, colour in colours.items():
@@ -147,12 +147,12 @@ def enlarged(picture: Picture, scale: int) -> Picture:
     return np.asarray(picture.repeat(scale, axis=0).repeat(scale, axis=1), np.uint8)
 
 
-def _under_walls(regions: IntArray, solid: BoolArray, reach_cells: int = 3) -> IntArray:
-    """Regions grown a little under the walls, so that no gap shows at the walls' feet."""
+def _under_walls(regions: IntArray, below: BoolArray, reach_cells: int = 3) -> IntArray:
+    """Regions grown a little under walls and specks, so that no gap shows at the walls' feet."""
     if not (regions > 0).any():
         return regions
     distance, nearest = ndimage.distance_transform_edt(regions == 0, return_indices=True)
-    grow = solid & (regions == 0) & (distance <= reach_cells)
+    grow = below & (regions == 0) & (distance <= reach_cells)
     grown = regions.copy()
     grown[grow] = regions[nearest[0][grow], nearest[1][grow]]
     return grown

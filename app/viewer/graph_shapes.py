@@ -88,6 +88,14 @@ def icosphere(subdivisions: int = 2) -> Mesh:
     return Mesh(points.astype(np.float32), mesh_faces.astype(np.uint32))
 
 
+def circle(centre: Sequence[float], radius: float, pieces: int = 40) -> FloatArray:
+    """(pieces, 2, 3) segments of a level circle."""
+    turn = np.linspace(0, 2 * np.pi, pieces + 1)
+    line = np.column_stack((np.cos(turn), np.sin(turn), np.zeros(pieces + 1))) * radius
+    line += np.asarray(centre, float)
+    return np.stack((line[:-1], line[1:]), axis=1)
+
+
 def unit_square() -> Mesh:
     """A square of edge 1 that lies on z = 0, centred."""
     corners = np.array([(-0.5, -0.5, 0), (0.5, -0.5, 0), (0.5, 0.5, 0), (-0.5, 0.5, 0)], np.float32)

@@ -28,8 +28,8 @@ DEFAULT_LAYERS: Mapping[str, bool] = {
 """Every layer, in the order of the page, and whether it is shown at first."""
 
 THEMES = ("light", "dark")
-THEMED = (GRID, REGIONS)
-"""Layers whose pictures differ between the themes: `/<layer>/<theme>`."""
+THEMED = (GRID, REGIONS, GRAPH)
+"""Layers that look different in the themes: `/<layer>/<theme>`."""
 
 
 class LayerSwitch:

@@ -11,6 +11,8 @@ from core.geometry import FloatArray
 
 NEAR_FLOOR = 0.3
 """Metres around a click on a wall's foot in which the nearest region is meant."""
+_OUTLINE_BLUR, _OUTLINE_LEVEL = 1.4, 0.66
+"""Cells, and the level of the blurred region that its outline follows: a little inside the walls."""
 _GENEROUS = 1.25
 """A sphere is hit a little beyond its rim: fingers are thick."""
 
@@ -57,17 +59,17 @@ def node_at(drawing: Drawing, point: tuple[float, float]) -> str | None:
 
 
 def region_outline(drawing: Drawing, region: int, height: float) -> FloatArray:
-    """(M, 2, 3) segments around a region, its corners cut, at a height (m)."""
+    """(M, 2, 3) segments just inside a region's border, its corners cut, at a height (m)."""
     rows, cols = np.nonzero(drawing.regions == region)
     if len(rows) == 0:
         return np.zeros((0, 2, 3))
-    low = np.array([rows.min(), cols.min()]) - 2
-    high = np.array([rows.max(), cols.max()]) + 3
+    low = np.array([rows.min(), cols.min()]) - 4
+    high = np.array([rows.max(), cols.max()]) + 5
     window = np.zeros(high - low, bool)
     window[rows - low[0], cols - low[1]] = True
-    field = ndimage.gaussian_filter(window.astype(float), 0.8)
+    field = ndimage.gaussian_filter(window.astype(float), _OUTLINE_BLUR)
     pieces = []
-    contours: list[FloatArray] = find_contours(field, 0.5)  # type: ignore[no-untyped-call]
+    contours: list[FloatArray] = find_contours(field, _OUTLINE_LEVEL)  # type: ignore[no-untyped-call]
     for contour in contours:
         world = drawing.geometry.world_of(contour + low)
         line = np.column_stack((world, np.full(len(world), height)))

@@ -13,7 +13,17 @@ from app.viewer.canvas import Canvas, shortened
 from app.viewer.contour_mesh import Mesh
 from app.viewer.drawing import Drawing, NodeMark
 from app.viewer.graph_shapes import icosphere, unit_square
-from app.viewer.layers import CELLS, GRAPH, GRID, LABELS, PATH, REGIONS, WALLS, LayerSwitch
+from app.viewer.layers import (
+    CELLS,
+    GRAPH,
+    GRID,
+    LABELS,
+    PATH,
+    REGIONS,
+    THEMES,
+    WALLS,
+    LayerSwitch,
+)
 from app.viewer.palette import Colour
 from app.viewer.paths import path_colours
 
@@ -21,8 +31,9 @@ WALL_TOP: Colour = (236, 239, 245)
 WALL_SIDE: Colour = (176, 184, 200)
 FURNITURE_TOP: Colour = (222, 226, 234)
 FURNITURE_SIDE: Colour = (158, 166, 184)
-EDGE: Colour = (52, 62, 98)
-STEM: Colour = (150, 158, 178)
+EDGES: Mapping[str, Colour] = {"light": (52, 62, 98), "dark": (196, 208, 236)}
+STEMS: Mapping[str, Colour] = {"light": (150, 158, 178), "dark": (110, 120, 144)}
+"""Colours of the graph's lines in each theme."""
 LABEL_GAP = 0.12
 """Metres between a node's sphere and its label."""
 EDGE_WIDTH, STEM_WIDTH, PATH_WIDTH, DOOR_RADIUS = 0.055, 0.018, 0.045, 0.055
@@ -121,19 +132,16 @@ class ModelScene:
             self._keep(name, self._canvas.mesh(name, mesh, colour, flat))
 
     def _graph(self, drawing: Drawing) -> None:
-        canvas = self._canvas
-        edges, stems, doors, nodes = (
-            f"/{GRAPH}/{part}" for part in ("edges", "stems", "doors", "nodes")
-        )
-        self._keep(edges, canvas.lines(edges, drawing.edges, EDGE, EDGE_WIDTH))
-        self._keep(stems, canvas.lines(stems, drawing.stems, STEM, STEM_WIDTH))
-        count = len(drawing.doors)
-        self._keep(
-            doors,
-            canvas.instances(
-                doors, sphere(1), drawing.doors, np.full(count, DOOR_RADIUS), [EDGE] * count
-            ),
-        )
+        canvas, nodes, count = self._canvas, f"/{GRAPH}/nodes", len(drawing.doors)
+        for theme in THEMES:
+            edges, stems, doors = (
+                f"/{GRAPH}/{theme}/{part}" for part in ("edges", "stems", "doors")
+            )
+            self._keep(edges, canvas.lines(edges, drawing.edges, EDGES[theme], EDGE_WIDTH))
+            self._keep(stems, canvas.lines(stems, drawing.stems, STEMS[theme], STEM_WIDTH))
+            bends = [EDGES[theme]] * count
+            sizes = np.full(count, DOOR_RADIUS)
+            self._keep(doors, canvas.instances(doors, sphere(1), drawing.doors, sizes, bends))
         spheres = canvas.instances(
             nodes,
             sphere(3),

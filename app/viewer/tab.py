@@ -31,10 +31,20 @@ from app.viewer.picking import floor_point, picked_node
 from app.viewer.tab_scene import TabScene
 from core.geometry import FloatArray
 
-_DECLUTTER_EVERY = 0.12
+_SETTLE_AFTER = 0.12
+_SAME_ASPECT = 0.01
 _TRAVEL_TIME, _TRAVEL_STEPS = 0.35, 12
 """Seconds and pictures of a camera's way from one standard view to another."""
+_SAME_PLACE = 0.01
 _DEFAULT_HEIGHT = 800.0
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A standard view that the camera was sent to, and the aspect of the picture that it fits."""
+
+    view: View
+    aspect: float
 
 
 @dataclass
@@ -60,8 +70,9 @@ class Tab:
         self.scene: TabScene | None = None
         self.mailbox: Mailbox | None = None
         self.last_used = time.monotonic()
+        self._fitted: Fitted | None = None
         self._travel: asyncio.Task[None] | None = None
-        self._declutter_due: asyncio.TimerHandle | None = None
+        self._settle_due: asyncio.TimerHandle | None = None
 
     @property
     def connected(self) -> bool:
@@ -91,9 +102,12 @@ class Tab:
         self.scene.layers.show(state.layers)
         self.scene.select(state.selected)
         self.scene.measure(state.points)
-        view = state.camera or self._standard_view(drawing)
-        self.scene.stand_at(view, farthest(self._standard_view(drawing), drawing.bounds))
-        self.scene.declutter(view, state.picture_height, state.selected)
+        if state.camera is None:
+            self._stand_at_standard(self.scene)
+        else:
+            far = farthest(self._standard(self.scene).view, drawing.bounds)
+            self.scene.stand_at(state.camera, far)
+        self.camera_moved()
         self.tell_ready()
 
     def leave(self, client: viser.ClientHandle) -> None:
@@ -147,10 +161,10 @@ class Tab:
             self.tell(Selected(node=node))
 
     def camera_moved(self) -> None:
-        """Labels are laid out again, soon and not too often."""
-        if self._declutter_due is None and self.scene is not None:
+        """The camera or the picture has changed: labels are laid out again, not too often."""
+        if self._settle_due is None and self.scene is not None:
             loop = asyncio.get_running_loop()
-            self._declutter_due = loop.call_later(_DECLUTTER_EVERY, self._declutter)
+            self._settle_due = loop.call_later(_SETTLE_AFTER, self._settle)
 
     def close(self) -> None:
         """The view closes for good."""
@@ -196,37 +210,59 @@ class Tab:
         self.tell(CameraView(view="top" if self.state.view == "top" else "3d"))
         if self.scene is not None:
             self._stop_moving()
-            target = self._standard_view(self.scene.drawing)
-            self._travel = asyncio.create_task(self._travel_to(self.scene, target))
+            self._fitted = None
+            self._travel = asyncio.create_task(self._travel_to_standard(self.scene))
 
-    async def _travel_to(self, scene: TabScene, target: View) -> None:
-        start = camera_view(scene.client)
+    async def _travel_to_standard(self, scene: TabScene) -> None:
+        start, target = camera_view(scene.client), self._standard(scene).view
         far = farthest(target, scene.drawing.bounds)
         for step in range(1, _TRAVEL_STEPS):
             scene.stand_at(blend(start, target, step / _TRAVEL_STEPS), far)
             await asyncio.sleep(_TRAVEL_TIME / _TRAVEL_STEPS)
-        scene.stand_at(target, far)
+        self._stand_at_standard(scene)
         self.camera_moved()
 
-    def _standard_view(self, drawing: Drawing) -> View:
-        aspect = self.scene.client.camera.aspect if self.scene is not None else 1.4
-        fit = fit_top if self.state.view == "top" else fit_3d
-        return fit(drawing.bounds, aspect)
+    def _stand_at_standard(self, scene: TabScene) -> None:
+        self._fitted = self._standard(scene)
+        scene.stand_at(self._fitted.view, farthest(self._fitted.view, scene.drawing.bounds))
 
-    def _declutter(self) -> None:
-        self._declutter_due = None
-        if self.scene is not None:
-            view = camera_view(self.scene.client)
-            self.state.camera = view
-            self.scene.declutter(view, self.state.picture_height, self.state.selected)
+    def _standard(self, scene: TabScene) -> Fitted:
+        aspect = scene.client.camera.aspect
+        fit = fit_top if self.state.view == "top" else fit_3d
+        return Fitted(fit(scene.drawing.bounds, aspect), aspect)
+
+    def _settle(self) -> None:
+        """After the camera or the picture's size has changed: fits again, lays labels out."""
+        self._settle_due = None
+        if self.scene is None:
+            return
+        view = camera_view(self.scene.client)
+        if self._fitted is not None and not _near(view, self._fitted.view):
+            self._fitted = None
+        if self._fitted is not None:
+            wider = self.scene.client.camera.aspect / self._fitted.aspect
+            if abs(wider - 1) > _SAME_ASPECT:
+                self._stand_at_standard(self.scene)
+                view = self._fitted.view
+        self.state.camera = None if self._fitted is not None else view
+        self.scene.declutter(view, self.state.picture_height, self.state.selected)
 
     def _stop_moving(self) -> None:
         if self._travel is not None:
             self._travel.cancel()
             self._travel = None
-        if self._declutter_due is not None:
-            self._declutter_due.cancel()
-            self._declutter_due = None
+        if self._settle_due is not None:
+            self._settle_due.cancel()
+            self._settle_due = None
+
+
+def _near(a: View, b: View) -> bool:
+    """Whether two cameras are the same for the eye."""
+    distance = float(np.linalg.norm(np.subtract(b.position, b.look_at)))
+    off = np.linalg.norm(np.subtract(a.position, b.position)) + np.linalg.norm(
+        np.subtract(a.look_at, b.look_at)
+    )
+    return bool(off < _SAME_PLACE * distance)
 
 
 def camera_view(client: viser.ClientHandle) -> View:

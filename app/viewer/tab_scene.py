@@ -11,7 +11,7 @@ from viser import FrameHandle
 from app.viewer.camera import View
 from app.viewer.canvas import LABEL_SCALE, Canvas, turned
 from app.viewer.drawing import Drawing
-from app.viewer.graph_shapes import unit_box
+from app.viewer.graph_shapes import circle, unit_box
 from app.viewer.label_layout import LabelBox, visible_labels
 from app.viewer.layers import BARS, LABELS, ROBOT, LayerSwitch
 from app.viewer.palette import Colour
@@ -23,12 +23,14 @@ SELECTED: Colour = (24, 92, 255)
 MEASURE: Colour = (224, 36, 94)
 BAR: Colour = (66, 133, 244)
 BEST_BAR: Colour = (234, 67, 53)
-LIGHTS: Mapping[str, tuple[float, float]] = {"light": (2.0, 1.7), "dark": (0.75, 0.8)}
+LIGHTS: Mapping[str, tuple[float, float]] = {"light": (2.0, 1.7), "dark": (1.05, 1.0)}
 """Intensity of the hemisphere and of the directional light in each theme."""
 SUN = (-4.0, -7.0, 10.0)
 BAR_HEIGHT, BAR_WIDTH, BAR_OFFSET = 1.8, 0.26, 0.42
-OUTLINE_HEIGHT, OUTLINE_WIDTH, MEASURE_HEIGHT = 0.05, 0.07, 0.08
+OUTLINE_HEIGHT, OUTLINE_WIDTH, RING_WIDTH, MEASURE_HEIGHT = 0.06, 0.08, 0.06, 0.08
 """Metres."""
+RING_SHARE = 1.55
+"""Of the selection's ring against its sphere."""
 
 
 class TabScene:
@@ -60,7 +62,7 @@ class TabScene:
         self._sky.intensity, self._sun.intensity = LIGHTS[theme]
 
     def select(self, node_id: str | None) -> None:
-        """Marks a node: a line around its region and a halo around its sphere."""
+        """Marks a node: a line around its region and a ring around its sphere."""
         node = next((node for node in self.drawing.nodes if node.id == node_id), None)
         if node is None:
             self._canvas.remove("/selection")
@@ -71,13 +73,11 @@ class TabScene:
             SELECTED,
             OUTLINE_WIDTH,
         )
-        self._canvas.instances(
-            "/selection/halo",
-            sphere(3),
-            np.array([node.centre]),
-            np.array([node.radius * 1.45]),
-            [SELECTED],
-            opacity=0.35,
+        self._canvas.lines(
+            "/selection/ring",
+            circle(node.centre, node.radius * RING_SHARE),
+            SELECTED,
+            RING_WIDTH,
         )
 
     def measure(self, points: Sequence[tuple[float, float]]) -> None:

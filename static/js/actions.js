@@ -13,11 +13,17 @@ let stopFollowing = null;
 export async function refreshLists() {
   try {
     const [logs, models] = await Promise.all([api.logs(), api.models()]);
-    set({ logs, models, offline: false });
+    const { logs: oldLogs, models: oldModels } = get();
+    set({ logs: same(oldLogs, logs), models: same(oldModels, models), offline: false });
   } catch (error) {
     if (error.status === 0) set({ offline: true });
     else showError(error);
   }
+}
+
+/** The old value when nothing in it has changed, so that nothing is drawn again. */
+function same(old, fresh) {
+  return JSON.stringify(old) === JSON.stringify(fresh) ? old : fresh;
 }
 
 export async function showRoute(route) {

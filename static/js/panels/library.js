@@ -11,7 +11,7 @@ const STATUS = { queued: "waiting", running: "being made", failed: "failed", can
 export function library(root) {
   let words = [];
   const search = h("input", {
-    type: "search", id: "search", placeholder: "Search models and logs", "aria-label": "Search models and logs",
+    type: "search", id: "search", placeholder: "Search…", "aria-label": "Search models and logs",
     oninput: () => {
       words = search.value.toLowerCase().split(/\s+/).filter(Boolean);
       draw(get());

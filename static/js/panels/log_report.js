@@ -3,14 +3,16 @@ import { h, icon } from "../dom.js";
 import { bytes, count, duration, metres, percent, when } from "../format.js";
 
 const MOST_LINES = 5;
+const FORMATS = { "echorooms-log": "EchoRooms log" };
+const LEAST_SCALE = 0.2;
 
 export function logReport(log) {
   const report = log.report;
   return h("article", { class: "report" },
-    h("header", {}, h("h2", {}, log.name), h("p", { class: "muted" }, `${report.format}, ${bytes(log.size_bytes)}, uploaded ${when(log.created)}`)),
+    h("header", {}, h("h2", {}, log.name), h("p", { class: "muted" }, `${FORMATS[report.format] ?? report.format}, ${bytes(log.size_bytes)}, uploaded ${when(log.created)}`)),
     verdict(report),
     h("section", {}, h("h3", {}, "Figures"), figures(report)),
-    h("section", {}, h("h3", {}, "Sonars"), h("p", { class: "muted" }, "Share of readings without an echo, sonar by sonar."), sonars(report)),
+    h("section", {}, h("h3", {}, "Sonars"), sonars(report)),
     events(report),
     findings("Clock", report.clock),
     findings("Left out", report.skipped),
@@ -41,11 +43,14 @@ function figures(report) {
 }
 
 function sonars(report) {
-  return h("ul", { class: "sonars" }, report.no_echo_per_sonar.map((share, index) => h("li", { title: `sonar ${index}: ${percent(share)} without echo` },
+  const scale = Math.max(LEAST_SCALE, ...report.no_echo_per_sonar);
+  const note = h("p", { class: "muted" }, `Share of readings without an echo, sonar by sonar; a full bar is ${percent(scale)}.`);
+  const bars = h("ul", { class: "sonars" }, report.no_echo_per_sonar.map((share, index) => h("li", { title: `sonar ${index}: ${percent(share)} without echo` },
     h("span", { class: "unseen" }, `Sonar ${index}: ${percent(share)} without echo`),
-    h("span", { class: "sonar-bar", "aria-hidden": "true", style: { "--share": share } }),
+    h("span", { class: "sonar-bar", "aria-hidden": "true", style: { "--share": share / scale } }),
     h("span", { class: "sonar-number", "aria-hidden": "true" }, index),
   )));
+  return [note, bars];
 }
 
 function events(report) {
