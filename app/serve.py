@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import asyncio
+import contextlib
 import errno
+import signal
 import socket
-from collections.abc import Callable
+import threading
+from collections.abc import Callable, Iterator
 
 import uvicorn
 from fastapi import FastAPI
@@ -16,6 +20,7 @@ from core.errors import InputError
 WEBSOCKET_MAX_BYTES = 64 << 20
 SHUTDOWN_S = 3
 BACKLOG = 128
+STOP_SIGNALS = (signal.SIGINT, signal.SIGTERM)
 OnReady = Callable[[str], None]
 """Called with the URL once the server answers."""
 
@@ -24,21 +29,26 @@ def run(settings: Settings, on_ready: OnReady | None = None) -> None:
     """Serves until it is told to stop (Ctrl-C or SIGTERM).
 
     Raises:
-        InputError: the port is taken or the address cannot be listened on.
+        InputError: the port is taken, the address cannot be listened on, or the data folder cannot
+            be used.
     """
-    listener = _listen(settings)
-    app = create_app(settings)
+    with _listen(settings) as listener:
+        asyncio.run(_serve(create_app(settings), listener, on_ready or (lambda url: None)))
+
+
+async def _serve(app: FastAPI, listener: socket.socket, on_ready: OnReady) -> None:
     config = uvicorn.Config(
         app,
-        workers=1,
+        lifespan="off",
         ws_per_message_deflate=False,
         ws_max_size=WEBSOCKET_MAX_BYTES,
         timeout_graceful_shutdown=SHUTDOWN_S,
         log_level="warning",
         server_header=False,
     )
-    with listener:
-        _Server(config, app, lambda: on_ready and on_ready(_url(listener))).run([listener])
+    # Entered here and not by uvicorn, which would print a traceback where one line is due.
+    async with app.router.lifespan_context(app):
+        await _Server(config, app, lambda: on_ready(_url(listener))).serve([listener])
 
 
 class _Server(uvicorn.Server):
@@ -53,12 +63,24 @@ class _Server(uvicorn.Server):
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         await super().startup(sockets)
-        if self.started:
-            self._on_ready()
+        self._on_ready()
 
     async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
         await self._app.state.services.runner.close()
         await super().shutdown(sockets)
+
+    @contextlib.contextmanager
+    def capture_signals(self) -> Iterator[None]:
+        """Ctrl-C and SIGTERM end the server in order, and nothing more: leaving is not a failure."""
+        if threading.current_thread() is not threading.main_thread():
+            yield
+            return
+        earlier = {number: signal.signal(number, self.handle_exit) for number in STOP_SIGNALS}
+        try:
+            yield
+        finally:
+            for number, handler in earlier.items():
+                signal.signal(number, handler)
 
 
 def _listen(settings: Settings) -> socket.socket:
