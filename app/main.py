@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import importlib.util
 from collections.abc import AsyncIterator
@@ -11,6 +12,8 @@ from fastapi import APIRouter, FastAPI
 
 from app.api import docs_page, health, jobs, labels, logs, models
 from app.api.static_pages import STATIC_FOLDER, StaticPages
+from app.body_limit import BodyLimit
+from app.demo import load_samples
 from app.errors import install_error_handlers
 from app.events import ModelEvents
 from app.security import BrowserGuard
@@ -31,7 +34,11 @@ def create_app(settings: Settings) -> FastAPI:
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         async with open_services(settings, events) as services:
             app.state.services = services
+            loading = asyncio.create_task(load_samples(services)) if settings.demo else None
             yield
+            if loading is not None:
+                loading.cancel()
+                await asyncio.wait([loading])
 
     app = FastAPI(
         title="EchoRooms",
@@ -51,6 +58,7 @@ def create_app(settings: Settings) -> FastAPI:
     app.include_router(docs_page.router)
     _attach_view(app, settings, events)
     app.mount("/", StaticPages(app, STATIC_FOLDER), name="static")
+    app.add_middleware(BodyLimit)
     app.add_middleware(BrowserGuard, settings=settings)
     return app
 

@@ -17,6 +17,7 @@ from app.storage.database import Database
 from app.storage.job_store import JobStore
 from app.storage.log_store import LogStore
 from app.storage.model_store import ModelStore
+from app.storage.sample_store import SampleStore
 
 
 @dataclass(frozen=True)
@@ -29,6 +30,7 @@ class Services:
     logs: LogStore
     models: ModelStore
     jobs: JobStore
+    samples: SampleStore
     runner: JobRunner
     pool: WorkerPool
     events: ModelEvents
@@ -63,6 +65,7 @@ async def open_services(settings: Settings, events: ModelEvents) -> AsyncIterato
         LogStore(database, folder),
         ModelStore(database, folder, events),
         job_store,
+        SampleStore(database),
         JobRunner(job_store, settings.max_jobs),
         WorkerPool(settings.warm_workers),
         events,

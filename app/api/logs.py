@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 from http import HTTPStatus
-from pathlib import Path
 
 from fastapi import APIRouter, Request
 
@@ -12,7 +11,7 @@ from app.api.dependencies import SearchQuery, ServicesDep, SortingDep
 from app.api.form_schema import file_part, form_body, text_part
 from app.api.schemas import LogDetail, LogSummary, NameBody
 from app.api.upload_form import receive_form
-from app.jobs.reading import read_upload
+from app.jobs.reading import keep_log
 from app.services import Services
 from app.storage.records import LogRecord
 
@@ -60,18 +59,6 @@ def rename_log(log_id: str, body: NameBody, services: ServicesDep) -> LogDetail:
 def delete_log(log_id: str, services: ServicesDep) -> None:
     """Removes the log; 409 while models use it."""
     services.logs.delete(log_id)
-
-
-async def keep_log(services: Services, upload: Path, ring: str | None, temp: Path) -> LogRecord:
-    """Reads a log in a worker and keeps it.
-
-    Raises:
-        LogError, TooLargeError: it cannot be read, and why.
-    """
-    prepared = temp / "log"
-    arguments = {"upload": str(upload), "ring": ring, "out": str(prepared)}
-    summary = await read_upload(services, "read_log", arguments)
-    return await asyncio.to_thread(services.logs.add, prepared, summary)
 
 
 def _detail(services: Services, record: LogRecord) -> LogDetail:

@@ -21,6 +21,7 @@ from app.settings import MEBIBYTE
 
 Fields = TypeVar("Fields", bound=BaseModel)
 MAX_PARTS = 16
+DRAIN_S = 5.0
 MAX_FIELD_BYTES = 1 << 17
 MAX_NAME_LENGTH = 60
 UNSAFE_CHARACTERS = frozenset('<>:"|?*/')
@@ -61,15 +62,14 @@ async def receive_form(request: Request, folder: Path, max_bytes: int) -> Upload
         TooLarge: the body is larger than `max_bytes`.
         Problem: it is no multipart form, or a broken one.
     """
-    limit = f"an upload may have at most {max_bytes // MEBIBYTE} MB"
-    if int(request.headers.get("content-length", 0)) > max_bytes:
-        raise TooLarge(limit)
+    if _announced(request) > max_bytes:
+        raise await _too_large(request, max_bytes)
     with _FormWriter(_boundary(request), folder).open() as writer:
         received, pending = 0, bytearray()
         async for chunk in request.stream():
             received += len(chunk)
             if received > max_bytes:
-                raise TooLarge(limit)
+                raise await _too_large(request, max_bytes)
             pending += chunk
             if len(pending) >= WRITE_BYTES:
                 await asyncio.to_thread(writer.write, bytes(pending))
@@ -89,6 +89,20 @@ def parse_fields(schema: type[Fields], fields: Mapping[str, str]) -> Fields:
     except ValidationError as error:
         errors = [{**item, "loc": ("body", *item["loc"])} for item in error.errors()]
         raise RequestValidationError(errors) from error
+
+
+def _announced(request: Request) -> int:
+    length = request.headers.get("content-length", "0")
+    return int(length) if length.isdecimal() else 0
+
+
+async def _too_large(request: Request, max_bytes: int) -> TooLarge:
+    """The error, once the sender has had time to finish: a browser in mid-upload hears no answer."""
+    with contextlib.suppress(TimeoutError):
+        async with asyncio.timeout(DRAIN_S):
+            async for _ in request.stream():
+                pass
+    return TooLarge(f"an upload may have at most {max_bytes // MEBIBYTE} MB")
 
 
 def _boundary(request: Request) -> bytes:
