@@ -45,10 +45,13 @@ def read_delimited_text(source: LogSource, ring: SonarRing | None, progress: Pro
         shown = folder.shown(folder.description)
         description = parse_description(data, shown, limits)
         ring = _ring(description, ring, folder, limits, budget)
-        parts = []
+        parts: list[FileStreams] = []
         for i, file in enumerate(description.files):
             share = part_of(progress, i / len(description.files), (i + 1) / len(description.files))
             parts.append(_read_file(folder, file, len(ring), limits, budget, share))
+            scans = sum(len(part.t) for part in parts if len(part.sonars))
+            if scans * len(ring) > limits.max_readings:
+                raise TooLargeError(f"{shown}: more than {limits.max_readings} readings")
     name = description.name or re.sub(r"\.(zip|ya?ml)$", "", source.name)
     return joined(FORMAT_NAME, name, ring, parts)
 

@@ -174,7 +174,7 @@ def parse_description(data: bytes, source: str, limits: ReadLimits) -> TextDescr
     """
     content = load_yaml(data, source, limits)
     if not isinstance(content, dict):
-        raise LogError("must be a table with `files` (see README)", source)
+        raise LogError("must be a table with `files`", source)
     try:
         return TextDescription.model_validate(content)
     except ValidationError as error:

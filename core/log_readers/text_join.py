@@ -6,22 +6,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from core.errors import LogError, TooLargeError
+from core.errors import LogError
 from core.geometry import BoolArray, FloatArray, IntArray
 from core.log_readers.draft_log import DraftLog, Finding
-from core.log_readers.limits import DEFAULT_LIMITS, ReadLimits
 from core.log_readers.pose_join import poses_at
 from core.log_readers.text_streams import FileStreams
 from core.sensing.ring import SonarRing
 
 
-def joined(
-    format_name: str,
-    name: str,
-    ring: SonarRing,
-    files: Sequence[FileStreams],
-    limits: ReadLimits = DEFAULT_LIMITS,
-) -> DraftLog:
+def joined(format_name: str, name: str, ring: SonarRing, files: Sequence[FileStreams]) -> DraftLog:
     """The log in which every row of ranges is a scan at the pose of its time.
 
     Scans without a trustworthy pose are left out (see `JoinConfig`). A true pose is used only if every
@@ -29,11 +22,8 @@ def joined(
 
     Raises:
         LogError: no scan has a pose.
-        TooLargeError: more readings than the limit.
     """
     sonar_files = [file for file in files if len(file.sonars)]
-    if sum(len(file.t) for file in sonar_files) * len(ring) > limits.max_readings:
-        raise TooLargeError(f"{name}: more than {limits.max_readings} readings")
     t, lines, ranges, too_close, fresh = _merged(sonar_files, len(ring))
     source = sonar_files[0].source
     poses, known = _poses(t, files, "poses")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.errors import LogError, TooLargeError
+from core.errors import LogError
 from core.geometry import AnyArray, BoolArray, FloatArray, IntArray
 from core.log_readers.clock import ordered_time
 from core.log_readers.draft_log import Finding
@@ -51,10 +51,7 @@ def streams_of(
 
     Raises:
         LogError: a time or pose that is blank, no number or out of bounds, at its line.
-        TooLargeError: more readings than the limit.
     """
-    if len(table.values) * ring_size > limits.max_readings:
-        raise TooLargeError(f"{source}: more than {limits.max_readings} readings")
     t = table.values[:, 0] * file.units.second
     _check(np.abs(t) <= limits.max_time_s, "no time in its column", table, source)
     place = 1

@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 from core.errors import LogError, TooLargeError
 from core.log_readers import LoadedLog, read_log
-from core.log_readers.limits import ReadLimits
+from core.log_readers.limits import DEFAULT_LIMITS, ReadLimits
 from core.log_readers.ring_file import table_of
 from core.sensing import RING_PRESETS, SonarRing
 
@@ -32,13 +32,18 @@ Load = Callable[..., LoadedLog]
 def load(tmp_path: Path) -> Load:
     """Writes a folder with a log.yaml and the given files, and reads it."""
 
-    def write_and_read(files: list[dict[str, Any]], ring: Any = None, **texts: str) -> LoadedLog:
+    def write_and_read(
+        files: list[dict[str, Any]],
+        ring: Any = None,
+        limits: ReadLimits = DEFAULT_LIMITS,
+        **texts: str,
+    ) -> LoadedLog:
         description = {"ring": table_of(PAIR) if ring is None else ring, "files": files}
         (tmp_path / "log.yaml").write_text(json.dumps(description), encoding="utf-8")
         for name, text in texts.items():
             path = tmp_path / name.replace("_", ".")
             path.write_text(text, encoding="utf-8")
-        return read_log(tmp_path)
+        return read_log(tmp_path, limits=limits)
 
     return write_and_read
 
@@ -267,6 +272,18 @@ def test_rows_are_counted_while_reading(load: Load, tmp_path: Path) -> None:
     (tmp_path / "sonar.txt").write_text("0 1 1\n" * 50, encoding="utf-8")
     with pytest.raises(TooLargeError, match="more than 90 numbers"):
         read_log(tmp_path, limits=ReadLimits(max_readings=90))
+
+
+def test_readings_are_counted_over_all_files(load: Load) -> None:
+    one = {"columns": {"t": 0, "ranges": [1]}}
+    files = [POSES] + [one | {"path": f"{i}.txt", "sonars": [i]} for i in range(2)]
+    with pytest.raises(TooLargeError, match="more than 30 readings"):
+        load(
+            files,
+            limits=ReadLimits(max_readings=30),
+            poses_txt=rows((0, 0, 0, 0)),
+            **{f"{i}_txt": rows(*((t, 1) for t in range(8))) for i in range(2)},
+        )
 
 
 @settings(
