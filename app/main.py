@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import importlib.util
 from collections.abc import AsyncIterator
 from typing import TYPE_CHECKING
 
@@ -16,6 +15,7 @@ from app.body_limit import BodyLimit
 from app.demo import load_samples
 from app.errors import install_error_handlers
 from app.events import ModelEvents
+from app.lazy_view import LazyView
 from app.security import BrowserGuard
 from app.services import Services, open_services
 from app.settings import Settings
@@ -29,48 +29,43 @@ DESCRIPTION = "Sonar logs in, maps with named rooms out. All lengths in metres, 
 def create_app(settings: Settings) -> FastAPI:
     """The app; it touches the data folder only between its start and its end (lifespan)."""
     events = ModelEvents()
-
-    @contextlib.asynccontextmanager
-    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        async with open_services(settings, events) as services:
-            app.state.services = services
-            loading = asyncio.create_task(load_samples(services)) if settings.demo else None
-            yield
-            if loading is not None:
-                loading.cancel()
-                await asyncio.wait([loading])
-
     app = FastAPI(
         title="EchoRooms",
         version=health.product_version(),
         description=DESCRIPTION,
-        lifespan=lifespan,
+        lifespan=_lifespan,
         docs_url=None,
         redoc_url=None,
     )
-    app.state.events = events
     app.state.settings = settings
+    app.state.events = events
+    app.state.view = LazyView(lambda model_id: _load_model(app, model_id), events, settings)
     install_error_handlers(app)
     api = APIRouter(prefix="/api")
     for router in (health.router, logs.router, models.router, labels.router, jobs.router):
         api.include_router(router)
     app.include_router(api)
     app.include_router(docs_page.router)
-    _attach_view(app, settings, events)
+    app.router.routes.append(app.state.view)
     app.mount("/", StaticPages(app, STATIC_FOLDER), name="static")
     app.add_middleware(BodyLimit)
     app.add_middleware(BrowserGuard, settings=settings)
     return app
 
 
-def _attach_view(app: FastAPI, settings: Settings, events: ModelEvents) -> None:
-    """Adds the 3D view, which reads models from the store that the running app has."""
-    if importlib.util.find_spec("app.viewer") is None:
-        return
-    from app.viewer import attach
+@contextlib.asynccontextmanager
+async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
+    async with open_services(app.state.settings, app.state.events) as services:
+        app.state.services = services
+        loading = asyncio.create_task(load_samples(services)) if services.settings.demo else None
+        yield
+        if loading is not None:
+            loading.cancel()
+            await asyncio.wait([loading])
+        await app.state.view.close()
 
-    def load_model(model_id: str) -> Model | None:
-        services: Services = app.state.services
-        return services.models.load(model_id)
 
-    attach(app, load_model, events, settings)
+def _load_model(app: FastAPI, model_id: str) -> Model | None:
+    """What the view shows: the stored model as it is now."""
+    services: Services = app.state.services
+    return services.models.load(model_id)
