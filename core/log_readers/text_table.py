@@ -72,7 +72,7 @@ def read_table(
             raise LogError(
                 f"{len(fields)} columns where the rows above have {layout.width}", source, number
             )
-        values.extend([_number(fields[i], file, source, number) for i in layout.wanted])
+        values.extend(_numbers([fields[i] for i in layout.wanted], file, source, number))
         numbers.append(number)
         if len(values) > limits.max_readings:
             raise TooLargeError(f"{source}: more than {limits.max_readings} numbers")
@@ -140,9 +140,17 @@ def _text(raw: bytes, source: str, number: int) -> str:
         raise LogError("not UTF-8 text", source, number) from error
 
 
-def _number(field: str, file: TextFile, source: str, number: int) -> float:
+def _numbers(fields: list[str], file: TextFile, source: str, number: int) -> list[float]:
+    """The numbers in the fields of a row; NaN for a blank field."""
     if file.decimal == ",":
-        field = field.replace(",", ".")
+        fields = [field.replace(",", ".") for field in fields]
+    try:
+        return [float(field) for field in fields]
+    except ValueError:
+        return [_number_or_blank(field, source, number) for field in fields]
+
+
+def _number_or_blank(field: str, source: str, number: int) -> float:
     try:
         return float(field)
     except ValueError:
