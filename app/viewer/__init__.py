@@ -16,7 +16,7 @@ from app.errors import NotFound
 from app.events import ModelEvents
 from app.settings import Settings
 from app.viewer.bridge import bridge
-from app.viewer.hub import Hub
+from app.viewer.hub import Hub, HubConfig
 from app.viewer.mailbox import Mailbox
 from app.viewer.messages import FROM_PAGE
 from app.viewer.open_view import LoadModel
@@ -29,17 +29,24 @@ Token = Annotated[str, Path(pattern=r"^[A-Za-z0-9_-]{8,64}$")]
 QueryToken = Annotated[str, Query(pattern=r"^[A-Za-z0-9_-]{8,64}$")]
 
 
-def attach(app: FastAPI, load_model: LoadModel, events: ModelEvents, settings: Settings) -> None:
+def attach(
+    app: FastAPI,
+    load_model: LoadModel,
+    events: ModelEvents,
+    settings: Settings,
+    config: HubConfig | None = None,
+) -> None:
     """Adds the 3D view to an app.
 
     Args:
         load_model: the stored model of an id as it is now, or None; called in a thread.
         events: heard for models that change or go.
         settings: the app's settings; Host and Origin are checked by the app's guard.
+        config: when views are closed.
 
     The hub is `app.state.viewer`, for what plays back in a tab.
     """
-    hub = Hub(load_model, events)
+    hub = Hub(load_model, events, config)
     app.state.viewer = hub
 
     @contextlib.asynccontextmanager

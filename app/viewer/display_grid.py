@@ -126,7 +126,8 @@ def _islands(
 def _filled(piece: BoolArray, closing_cells: int) -> BoolArray:
     """A piece with what it encloses, also through gaps of up to twice `closing_cells`."""
     padded = np.pad(piece, closing_cells + 1)
-    closed = ndimage.binary_closing(padded, iterations=closing_cells)
+    square = np.ones((3, 3), bool)
+    closed = ndimage.binary_closing(padded, square, iterations=closing_cells)
     inner = slice(closing_cells + 1, -closing_cells - 1)
     return np.asarray(ndimage.binary_fill_holes(closed)[inner, inner])
 

@@ -153,7 +153,7 @@ class OpenView:
 
     def _join(self, client: viser.ClientHandle) -> None:
         token = self.server.tab_of(client)
-        if token is not None:
+        if token is not None and client.client_id in self.server.get_clients():
             self.tab(token).join(client, self.drawing)
 
     def _leave(self, client: viser.ClientHandle) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 
 import numpy as np
 
-from core.geometry import FloatArray
+from core.geometry import FloatArray, IntArray
 from core.topology import TopologicalMap
 
 Colour = tuple[int, int, int]
@@ -35,17 +35,23 @@ _NEIGHBOUR_WEIGHT = 4.0
 """How much more a likeness to a neighbouring room counts than one to a room further off."""
 _ALIKE = 100.0
 """Cost of giving one hue twice: only when all are taken, and never to neighbours while avoidable."""
+_WALL_CELLS = 8
+"""Grids between two rooms with only a wall between them."""
 _SHADE_STEP = 0.10
 _MAX_SHADE = 0.3
 
 
-def node_colours(topology: TopologicalMap) -> dict[str, Colour]:
+def node_colours(topology: TopologicalMap, regions: IntArray) -> dict[str, Colour]:
     """A colour for every node id, unlike its neighbours'; a hue that is used again is shaded.
 
-    Depends on regions and edges only, so that naming nodes never recolours anything.
+    Neighbours are nodes that a doorway joins or that only a wall divides. Depends on the regions
+    (rows, cols) and edges only, so that naming nodes never recolours anything.
     """
     nodes = sorted(topology.nodes, key=lambda node: node.region)
-    hues = _hues([node.id for node in nodes], [(e.source, e.target) for e in topology.edges])
+    id_of = {node.region: node.id for node in nodes}
+    pairs = [(edge.source, edge.target) for edge in topology.edges]
+    pairs += [(id_of[a], id_of[b]) for a, b in _beside(regions) if a in id_of and b in id_of]
+    hues = _hues([node.id for node in nodes], pairs)
     colours: dict[str, Colour] = {}
     times: dict[int, int] = {}
     for node in nodes:
@@ -73,6 +79,19 @@ def mix(colour: Colour, other: Colour, share: float) -> Colour:
     a, b = np.array(colour, float), np.array(other, float)
     r, g, bl = np.rint(a + (b - a) * share).astype(int).tolist()
     return (r, g, bl)
+
+
+def _beside(regions: IntArray) -> set[tuple[int, int]]:
+    """Pairs of regions that come as close as the thickness of a wall."""
+    pairs: set[tuple[int, int]] = set()
+    for reach in range(1, _WALL_CELLS + 1):
+        for a, b in (
+            (regions[reach:], regions[:-reach]),
+            (regions[:, reach:], regions[:, :-reach]),
+        ):
+            near = (a != b) & (a > 0) & (b > 0)
+            pairs |= set(zip(a[near].tolist(), b[near].tolist(), strict=True))
+    return pairs
 
 
 def _hues(keys: Sequence[str], pairs: Iterable[tuple[str, str]]) -> Mapping[str, int]:

@@ -59,10 +59,10 @@ async function showModel(id) {
 
 function follow(model) {
   stopFollowing = followJob(model.job_id, (job) => {
+    if (job.status !== get().job?.status) refreshLists();
     set({ job });
     if (!ended(job)) return;
     if (job.status === "done") toast(`${model.name} is ready.`);
-    refreshLists();
     if (get().route.id === model.id) showModel(model.id).then(() => set({ job: null }));
   }, showError);
 }
