@@ -5,20 +5,37 @@ from __future__ import annotations
 import gzip
 import json
 import math
+import signal
+import subprocess
+import sys
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
+import httpx
 import pytest
 from fastapi.testclient import TestClient
 
 from app.main import create_app
 from app.settings import Settings
 
+SERVER = """
+import json
+import sys
+from pathlib import Path
+from app.serve import run
+from app.settings import Settings
+given = json.loads(sys.argv[2])
+settings = Settings(data=Path(sys.argv[1]), port=0, warm_workers=1, **given)
+run(settings, lambda url: print(url, flush=True))
+"""
+
+
 LOOPBACK = "http://127.0.0.1:8000"
 ROOM_HALF_M = 2.0
 SONARS = 8
+LONG_SCANS = 12_000
 
 
 def native_log(scans: int = 80, name: str = "square room", start_t: float = 0.0) -> bytes:
@@ -62,6 +79,12 @@ def _to_wall(x: float, y: float, heading: float) -> float:
 def make_log() -> Callable[..., bytes]:
     """Makes the bytes of a small native log."""
     return native_log
+
+
+@pytest.fixture(scope="session")
+def long_log() -> bytes:
+    """A drive that takes seconds to map."""
+    return native_log(scans=LONG_SCANS, name="long drive")
 
 
 @pytest.fixture
@@ -136,3 +159,58 @@ def make_model(
 def shared_model(shared_client: TestClient, make_model: Callable[..., str]) -> str:
     """A finished model of three regions on the shared server; tests leave it without labels."""
     return make_model(shared_client)
+
+
+class Server:
+    """A server in a process of its own."""
+
+    def __init__(self, data: Path, **settings: Any) -> None:
+        self.data = data
+        self.stderr = data.with_suffix(".stderr")
+        self.process = subprocess.Popen(
+            [sys.executable, "-c", SERVER, str(data), json.dumps(settings)],
+            stdout=subprocess.PIPE,
+            stderr=self.stderr.open("a"),
+            text=True,
+        )
+        assert self.process.stdout is not None
+        self.url = self.process.stdout.readline().strip()
+        self.http = httpx.Client(base_url=self.url, timeout=30)
+
+    def upload(self, content: bytes) -> dict[str, Any]:
+        answer = self.http.post("/api/logs", files={"file": ("drive.jsonl", content)})
+        assert answer.status_code == 201, answer.text
+        log: dict[str, Any] = answer.json()
+        return log
+
+    def errors(self) -> str:
+        """What it has written on standard error."""
+        return self.stderr.read_text()
+
+    def kill(self) -> None:
+        """Ends it as a power cut would."""
+        self.process.kill()
+        self.process.wait()
+        self.http.close()
+
+    def stop(self) -> float:
+        """Ends it as Ctrl-C would; returns how long that took in seconds."""
+        started = time.monotonic()
+        self.process.send_signal(signal.SIGINT)
+        self.process.wait(timeout=20)
+        return time.monotonic() - started
+
+
+@pytest.fixture
+def start_server(tmp_path: Path) -> Iterator[Callable[..., Server]]:
+    """Starts servers, one after another, on one data folder."""
+    servers: list[Server] = []
+
+    def begin(**settings: Any) -> Server:
+        servers.append(Server(tmp_path / "data", **settings))
+        return servers[-1]
+
+    yield begin
+    for server in servers:
+        if server.process.poll() is None:
+            server.kill()

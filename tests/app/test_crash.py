@@ -2,76 +2,16 @@
 
 from __future__ import annotations
 
-import signal
 import socket
-import subprocess
-import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import httpx
 import psutil
-import pytest
 
-SERVER = """
-import sys
-from pathlib import Path
-from app.serve import run
-from app.settings import Settings
-run(Settings(data=Path(sys.argv[1]), port=0, warm_workers=1), lambda url: print(url, flush=True))
-"""
-
-
-class Server:
-    """A server in a process of its own."""
-
-    def __init__(self, data: Path) -> None:
-        self.data = data
-        self.process = subprocess.Popen(
-            [sys.executable, "-c", SERVER, str(data)], stdout=subprocess.PIPE, text=True
-        )
-        assert self.process.stdout is not None
-        self.url = self.process.stdout.readline().strip()
-        self.http = httpx.Client(base_url=self.url, timeout=30)
-
-    def upload(self, content: bytes) -> dict[str, Any]:
-        answer = self.http.post("/api/logs", files={"file": ("drive.jsonl", content)})
-        assert answer.status_code == 201, answer.text
-        log: dict[str, Any] = answer.json()
-        return log
-
-    def kill(self) -> None:
-        """Ends it as a power cut would."""
-        self.process.kill()
-        self.process.wait()
-        self.http.close()
-
-    def stop(self) -> float:
-        """Ends it as Ctrl-C would; returns how long that took in seconds."""
-        started = time.monotonic()
-        self.process.send_signal(signal.SIGINT)
-        self.process.wait(timeout=20)
-        return time.monotonic() - started
-
-
-StartServer = Callable[[], Server]
-
-
-@pytest.fixture
-def start(tmp_path: Path) -> Iterator[StartServer]:
-    """Starts servers, one after another, on one data folder."""
-    servers: list[Server] = []
-
-    def begin() -> Server:
-        servers.append(Server(tmp_path / "data"))
-        return servers[-1]
-
-    yield begin
-    for server in servers:
-        if server.process.poll() is None:
-            server.kill()
+StartServer = Callable[[], Any]
+MakeLog = Callable[..., bytes]
 
 
 def files_below(folder: Path) -> list[str]:
@@ -79,9 +19,9 @@ def files_below(folder: Path) -> list[str]:
 
 
 def test_an_upload_that_dies_half_way_leaves_nothing(
-    start: StartServer, make_log: Callable[..., bytes]
+    start_server: StartServer, make_log: MakeLog
 ) -> None:
-    server = start()
+    server = start_server()
     server.upload(make_log(name="kept"))
     port = int(server.url.rstrip("/").rsplit(":", 1)[1])
     with socket.create_connection(("127.0.0.1", port)) as half:
@@ -96,15 +36,15 @@ def test_an_upload_that_dies_half_way_leaves_nothing(
             assert time.monotonic() < deadline
             time.sleep(0.02)
         server.kill()
-    again = start()
+    again = start_server()
     assert files_below(again.data / "temp") == []
     (log,) = again.http.get("/api/logs").json()
     assert log["name"] == "kept"
     assert len(list((again.data / "logs").iterdir())) == 1
 
 
-def test_a_client_that_goes_away_in_mid_upload_leaves_nothing(start: StartServer) -> None:
-    server = start()
+def test_a_client_that_goes_away_in_mid_upload_leaves_nothing(start_server: StartServer) -> None:
+    server = start_server()
     port = int(server.url.rstrip("/").rsplit(":", 1)[1])
     with socket.create_connection(("127.0.0.1", port)) as half:
         head = (
@@ -121,10 +61,10 @@ def test_a_client_that_goes_away_in_mid_upload_leaves_nothing(start: StartServer
 
 
 def test_killed_in_the_middle_of_a_job_it_keeps_the_rest_and_says_why_the_job_failed(
-    start: StartServer, make_log: Callable[..., bytes]
+    start_server: StartServer, make_log: MakeLog, long_log: bytes
 ) -> None:
-    server = start()
-    small, large = server.upload(make_log()), server.upload(make_log(scans=20_000))
+    server = start_server()
+    small, large = server.upload(make_log()), server.upload(long_log)
     done = server.http.post("/api/models", json={"log_id": small["id"], "regions": 2}).json()
     _wait(server, done["job_id"])
     node = server.http.get(f"/api/models/{done['id']}").json()["nodes"][0]["id"]
@@ -141,7 +81,7 @@ def test_killed_in_the_middle_of_a_job_it_keeps_the_rest_and_says_why_the_job_fa
     _, alive = psutil.wait_procs(workers, timeout=20)
     assert alive == []
 
-    again = start()
+    again = start_server()
     assert again.http.get(f"/api/models/{done['id']}").json() == before
     job = again.http.get(f"/api/jobs/{cut['job_id']}").json()
     model = again.http.get(f"/api/models/{cut['id']}").json()
@@ -153,10 +93,10 @@ def test_killed_in_the_middle_of_a_job_it_keeps_the_rest_and_says_why_the_job_fa
 
 
 def test_ctrl_c_ends_it_soon_even_while_somebody_follows_a_job(
-    start: StartServer, make_log: Callable[..., bytes]
+    start_server: StartServer, long_log: bytes
 ) -> None:
-    server = start()
-    log = server.upload(make_log(scans=20_000))
+    server = start_server()
+    log = server.upload(long_log)
     job_id = server.http.post("/api/models", json={"log_id": log["id"], "regions": 2}).json()[
         "job_id"
     ]
@@ -171,16 +111,15 @@ def test_ctrl_c_ends_it_soon_even_while_somebody_follows_a_job(
     assert server.process.returncode == 0
 
 
-def test_a_data_folder_serves_one_server_at_a_time(start: StartServer) -> None:
-    server = start()
-    second = subprocess.run(
-        [sys.executable, "-c", SERVER, str(server.data)], capture_output=True, text=True, timeout=30
-    )
-    assert second.returncode != 0
-    assert "in use by another EchoRooms server" in second.stderr.splitlines()[-1]
+def test_a_data_folder_serves_one_server_at_a_time(start_server: StartServer) -> None:
+    start_server()
+    second = start_server()
+    assert second.url == ""
+    assert second.process.wait(timeout=30) != 0
+    assert "in use by another EchoRooms server" in second.errors().splitlines()[-1]
 
 
-def _wait(server: Server, job_id: str) -> None:
+def _wait(server: Any, job_id: str) -> None:
     deadline = time.monotonic() + 60
     while server.http.get(f"/api/jobs/{job_id}").json()["status"] in ("queued", "running"):
         assert time.monotonic() < deadline

@@ -11,7 +11,6 @@ from pathlib import Path
 from typing import Any
 
 import psutil
-import pytest
 from fastapi.testclient import TestClient
 
 from app.main import create_app
@@ -19,13 +18,6 @@ from app.settings import Settings
 
 Upload = Callable[..., dict[str, Any]]
 Wait = Callable[..., dict[str, Any]]
-LONG_SCANS = 20_000
-"""Scans of a drive that takes seconds to map."""
-
-
-@pytest.fixture(scope="module")
-def long_log(make_log: Callable[..., bytes]) -> bytes:
-    return make_log(scans=LONG_SCANS, name="long drive")
 
 
 def start(client: TestClient, log_id: str, regions: int = 2) -> tuple[str, str]:
