@@ -6,6 +6,7 @@ import asyncio
 from http import HTTPStatus
 
 from fastapi import APIRouter, Request
+from fastapi.responses import FileResponse
 
 from app.api.dependencies import SearchQuery, ServicesDep, SortingDep
 from app.api.form_schema import file_part, form_body, text_part
@@ -47,6 +48,17 @@ def list_logs(services: ServicesDep, sorting: SortingDep, q: SearchQuery = "") -
 def get_log(log_id: str, services: ServicesDep) -> LogDetail:
     """The log and everything that was found when it was read."""
     return _detail(services, services.logs.get(log_id))
+
+
+@router.get("/{log_id}/file", summary="The log in the native format", response_class=FileResponse)
+def get_log_file(log_id: str, services: ServicesDep) -> FileResponse:
+    """The drive as the program understood it, gzipped JSON Lines."""
+    log = services.logs.get(log_id)
+    return FileResponse(
+        services.logs.native_file(log.id),
+        media_type="application/gzip",
+        filename=f"log-{log.id}.jsonl.gz",
+    )
 
 
 @router.patch("/{log_id}", summary="Rename a log")

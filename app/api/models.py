@@ -9,6 +9,7 @@ from fastapi import APIRouter, Request, Response
 
 from app.api.dependencies import SearchQuery, ServicesDep, SortingDep
 from app.api.form_schema import file_part, form_body, text_part
+from app.api.model_downloads import grid_png, zipped
 from app.api.schemas import (
     Accepted,
     ImportFields,
@@ -33,7 +34,9 @@ PROVENANCE_FILE = "provenance.json"
 @router.post("", status_code=HTTPStatus.ACCEPTED, summary="Model a log")
 async def create_model(body: ModelBody, services: ServicesDep) -> Accepted:
     """Begins to make a model; the job tells how far it is."""
-    model, job = await model_a_log(services, body.log_id, body.name, body.options())
+    model, job = await model_a_log(
+        services, body.log_id, body.name, body.options(), body.labels_from
+    )
     return Accepted(id=model.id, job_id=job.id)
 
 
@@ -100,6 +103,19 @@ async def delete_model(model_id: str, services: ServicesDep) -> None:
 
 
 @router.get(
+    "/{model_id}/folder.zip",
+    summary="The model folder to take away",
+    response_class=Response,
+    responses={200: {"content": {"application/zip": {}}}},
+)
+def get_model_folder(model_id: str, services: ServicesDep) -> Response:
+    """Everything that is known of the model, as files that other programs read."""
+    content = zipped(services.models.folder(model_id))
+    disposition = {"content-disposition": f'attachment; filename="model-{model_id}.zip"'}
+    return Response(content, media_type="application/zip", headers=disposition)
+
+
+@router.get(
     "/{model_id}/grid.png",
     summary="The grid as a picture",
     response_class=Response,
@@ -107,8 +123,6 @@ async def delete_model(model_id: str, services: ServicesDep) -> None:
 )
 def get_grid_picture(model_id: str, services: ServicesDep) -> Response:
     """White is free, black occupied, grey unknown; row 0 is the top."""
-    from app.api.grid_picture import grid_png
-
     return Response(grid_png(services.models.folder(model_id)), media_type="image/png")
 
 

@@ -59,13 +59,16 @@ class ModelBody(Body):
         None, ge=1, le=MAX_REGIONS, strict=True, description="number of regions (offline)"
     )
     method: Literal["default", "paper"] = "default"
+    labels_from: str | None = Field(
+        None, max_length=64, description="a model of the same home whose labels go along by overlap"
+    )
     mapping: Literal["cemal", "bayes"] = "cemal"
     odometry: Literal["raw", "calibrated", "corrected"] | None = None
     resolution: float = Field(0.05, ge=0.02, le=0.5, description="metres per cell")
 
     def options(self) -> dict[str, Any]:
         """What `core.pipeline.modeller.ModellingOptions` takes."""
-        return self.model_dump(exclude={"log_id", "name"}, exclude_none=True)
+        return self.model_dump(exclude={"log_id", "name", "labels_from"}, exclude_none=True)
 
     @model_validator(mode="after")
     def _possible(self) -> ModelBody:

@@ -3,18 +3,19 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
-from app.errors import Conflict, NotFound, Unprocessable
+from app.errors import Conflict, Problem, Unprocessable
 from app.jobs.runner import ActiveJob
 from app.services import Services
 from app.storage.map_source import MAP_YAML
 from app.storage.records import JobRecord, ModelRecord, Status
 
 KIND = "model"
+Found = TypeVar("Found")
 WORKING_SHARE = 0.98
 """The share of the progress that is the worker's; the rest is for keeping the result."""
 
@@ -28,6 +29,7 @@ class Modelling:
         inputs: the files that the task reads.
         options: what `core.pipeline.modeller.ModellingOptions` takes.
         log_ids: the logs that the finished model is made from.
+        labels_from: the model whose labels go along by overlap, as they are when this one is done.
     """
 
     services: Services
@@ -36,6 +38,7 @@ class Modelling:
     inputs: Sequence[Path]
     options: Mapping[str, Any]
     log_ids: Sequence[str]
+    labels_from: str | None = None
 
     async def run(self, job: ActiveJob) -> None:
         """Makes the model."""
@@ -54,7 +57,9 @@ class Modelling:
             }
             facts = await self.services.pool.run(self.task, arguments, limits, report)
             with job.commit():
-                await asyncio.to_thread(models.publish, self.model_id, made, self.log_ids, facts)
+                await asyncio.to_thread(
+                    models.publish, self.model_id, made, self.log_ids, facts, self.labels_from
+                )
 
     def ended(self, status: Status, error: str | None) -> None:
         """Notes on the model how its job ended."""
@@ -63,22 +68,28 @@ class Modelling:
 
 
 async def model_a_log(
-    services: Services, log_id: str, name: str | None, options: Mapping[str, Any]
+    services: Services,
+    log_id: str,
+    name: str | None,
+    options: Mapping[str, Any],
+    labels_from: str | None = None,
 ) -> tuple[ModelRecord, JobRecord]:
     """A new model of a log, queued.
 
     Raises:
-        Unprocessable: there is no such log.
+        Unprocessable: there is no such log, or no such model to take labels from.
     """
 
     def begin() -> tuple[ModelRecord, JobRecord]:
-        log = _log(services, log_id)
+        log = _named("log_id", services.logs.get, log_id)
+        if labels_from is not None:
+            _named("labels_from", services.models.folder, labels_from)
         model = services.models.add(name or log.name, options, [log_id])
         return model, _begin(services, model.id)
 
     model, job = await asyncio.to_thread(begin)
     inputs = [services.logs.native_file(log_id)]
-    work = Modelling(services, model.id, "model_log", inputs, options, [log_id])
+    work = Modelling(services, model.id, "model_log", inputs, options, [log_id], labels_from)
     services.runner.submit(job, work)
     return model, job
 
@@ -114,7 +125,7 @@ async def continue_model(services: Services, model_id: str, log_id: str) -> JobR
 
     def begin() -> tuple[ModelRecord, JobRecord]:
         model = services.models.get(model_id)
-        _log(services, log_id)
+        _named("log_id", services.logs.get, log_id)
         if not model.log_ids:
             raise Unprocessable("the model was made from a map: it has no drive to go on with")
         if log_id in model.log_ids:
@@ -124,7 +135,9 @@ async def continue_model(services: Services, model_id: str, log_id: str) -> JobR
     model, job = await asyncio.to_thread(begin)
     log_ids = [*model.log_ids, log_id]
     inputs = [services.logs.native_file(part) for part in log_ids]
-    work = Modelling(services, model_id, "model_log", inputs, model.options, log_ids)
+    work = Modelling(
+        services, model_id, "model_log", inputs, model.options, log_ids, labels_from=model_id
+    )
     services.runner.submit(job, work)
     return job
 
@@ -139,8 +152,9 @@ def _begin(services: Services, model_id: str) -> JobRecord:
         return job
 
 
-def _log(services: Services, log_id: str) -> Any:
+def _named(field: str, get: Callable[[str], Found], identifier: str) -> Found:
+    """What a field of a body names."""
     try:
-        return services.logs.get(log_id)
-    except NotFound as error:
-        raise Unprocessable(f"log_id: {error.detail}") from error
+        return get(identifier)
+    except Problem as error:
+        raise Unprocessable(f"{field}: {error.detail}") from error

@@ -114,22 +114,26 @@ class ModelStore:
         self._set(model_id, status=Status.DONE if whole else status, error=error)
 
     def publish(
-        self, model_id: str, prepared: Path, log_ids: Sequence[str], facts: Mapping[str, Any]
+        self,
+        model_id: str,
+        prepared: Path,
+        log_ids: Sequence[str],
+        facts: Mapping[str, Any],
+        labels_from: str | None = None,
     ) -> None:
         """Takes over a model folder that a worker has written, as the newest revision.
-
-        The labels of the revision before go along, as they are now.
 
         Args:
             log_ids: the logs that it is made from.
             facts: what `facts_of` tells of the folder.
+            labels_from: the model whose labels, as they are now, go along by overlap.
         """
         with self._lock:
-            earlier = self._files.revisions(model_id)
-            if earlier:
+            named = self._files.revisions(labels_from) if labels_from else []
+            if named:
                 from app.storage.label_edit import carry_labels
 
-                carry_labels(earlier[-1], prepared)
+                carry_labels(named[-1], prepared)
                 facts = facts_of(prepared)
             self._files.switch(model_id, prepared)
             with self._database.write() as connection:

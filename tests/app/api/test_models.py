@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import gzip
 import io
+import json
+import zipfile
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -243,3 +246,42 @@ def test_a_picture_of_a_billion_pixels_is_413(shared_client: TestClient) -> None
     response = shared_client.post("/api/models/import", files=files)
     assert response.status_code in (413, 422)
     assert "pixels" in response.json()["detail"]
+
+
+def test_a_model_made_again_takes_the_labels_of_an_earlier_one_along(
+    shared_client: TestClient, upload: Upload, make_model: MakeModel, wait_for_job: Wait
+) -> None:
+    log = upload(shared_client)["id"]
+    first = make_model(shared_client, log, regions=2)
+    node = shared_client.get(f"/api/models/{first}").json()["nodes"][1]
+    shared_client.patch(f"/api/models/{first}/nodes/{node['id']}", json={"label": "study"})
+    body = {"log_id": log, "regions": 2, "mapping": "bayes", "labels_from": first}
+    accepted = shared_client.post("/api/models", json=body).json()
+    assert wait_for_job(shared_client, accepted["job_id"])["status"] == "done"
+    again = shared_client.get(f"/api/models/{accepted['id']}").json()
+    (labelled,) = [n for n in again["nodes"] if n["label"] == "study"]
+    closest = min(
+        again["nodes"], key=lambda n: np.hypot(*np.subtract(n["position"], node["position"]))
+    )
+    assert labelled == closest
+    assert again["options"]["mapping"] == "bayes"
+    body["labels_from"] = "0123456789abcdef"
+    refused = shared_client.post("/api/models", json=body)
+    assert refused.status_code == 422
+    assert "labels_from" in refused.json()["detail"]
+
+
+def test_a_model_folder_and_a_log_can_be_taken_away(
+    shared_client: TestClient, shared_model: str
+) -> None:
+    answer = shared_client.get(f"/api/models/{shared_model}/folder.zip")
+    with zipfile.ZipFile(io.BytesIO(answer.content)) as archive:
+        names = set(archive.namelist())
+        topology = json.loads(archive.read("topology.json"))
+    assert {"map.yaml", "map.pgm", "regions.png", "rooms.png", "trajectory.csv"} <= names
+    assert {"topology.json", "provenance.json", "history.jsonl"} <= names
+    model = shared_client.get(f"/api/models/{shared_model}").json()
+    assert [n["id"] for n in topology["nodes"]] == [n["id"] for n in model["nodes"]]
+    log = shared_client.get(f"/api/logs/{model['log_ids'][0]}/file")
+    assert gzip.decompress(log.content).count(b"\n") == 81
+    assert shared_client.get("/api/models/0123456789abcdef/folder.zip").status_code == 404
