@@ -17,6 +17,28 @@ from core.errors import EchoRoomsError, InputError, LogError, TooLargeError
 
 logger = logging.getLogger(__name__)
 PROBLEM_JSON = "application/problem+json"
+PROBLEM_RESPONSES: dict[int | str, dict[str, Any]] = {
+    "4XX": {
+        "description": "what is wrong, as a problem document (RFC 9457)",
+        "content": {
+            PROBLEM_JSON: {
+                "schema": {
+                    "type": "object",
+                    "required": ["type", "title", "status", "detail"],
+                    "properties": {
+                        "type": {"type": "string"},
+                        "title": {"type": "string"},
+                        "status": {"type": "integer"},
+                        "detail": {"type": "string", "description": "one line for a person"},
+                        "line": {"type": "integer", "description": "of the log that is wrong"},
+                        "errors": {"type": "array", "description": "fields that are wrong"},
+                    },
+                }
+            }
+        },
+    }
+}
+"""How OpenAPI describes the errors of every endpoint."""
 
 
 class Problem(HTTPException):

@@ -13,7 +13,7 @@ from app.api import docs_page, health, jobs, labels, logs, models
 from app.api.static_pages import STATIC_FOLDER, StaticPages
 from app.body_limit import BodyLimit
 from app.demo import load_samples
-from app.errors import install_error_handlers
+from app.errors import PROBLEM_RESPONSES, install_error_handlers
 from app.events import ModelEvents
 from app.lazy_view import LazyView
 from app.security import BrowserGuard
@@ -41,7 +41,7 @@ def create_app(settings: Settings) -> FastAPI:
     app.state.events = events
     app.state.view = LazyView(lambda model_id: _load_model(app, model_id), events, settings)
     install_error_handlers(app)
-    api = APIRouter(prefix="/api")
+    api = APIRouter(prefix="/api", responses=PROBLEM_RESPONSES)
     for router in (health.router, logs.router, models.router, labels.router, jobs.router):
         api.include_router(router)
     app.include_router(api)

@@ -32,6 +32,8 @@ HEADERS = {
     "cross-origin-resource-policy": "same-origin",
 }
 """Set where a route has not chosen its own (the 3D view has another content policy)."""
+NEVER_KEPT = {"cache-control": "no-store"}
+API_PREFIX = "/api/"
 
 
 def host_allowed(headers: Mapping[str, str], settings: Settings) -> bool:
@@ -79,10 +81,10 @@ class BrowserGuard:
             return
         refusal = self._refusal(scope)
         if refusal is None:
-            await self.app(scope, receive, _with_headers(send))
+            await self.app(scope, receive, _with_headers(send, scope))
         elif scope["type"] == "http":
             response = problem_response(HTTPStatus.FORBIDDEN, refusal)
-            await response(scope, receive, _with_headers(send))
+            await response(scope, receive, _with_headers(send, scope))
         else:
             await receive()
             await send({"type": "websocket.close", "code": 1008, "reason": refusal})
@@ -100,11 +102,13 @@ class BrowserGuard:
         return None
 
 
-def _with_headers(send: Send) -> Send:
+def _with_headers(send: Send, scope: Scope) -> Send:
+    wanted = HEADERS | (NEVER_KEPT if scope["path"].startswith(API_PREFIX) else {})
+
     async def send_with_headers(message: Message) -> None:
         if message["type"] == "http.response.start":
             headers = MutableHeaders(scope=message)
-            for name, value in HEADERS.items():
+            for name, value in wanted.items():
                 headers.setdefault(name, value)
         await send(message)
 

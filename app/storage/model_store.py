@@ -127,8 +127,12 @@ class ModelStore:
             log_ids: the logs that it is made from.
             facts: what `facts_of` tells of the folder.
             labels_from: the model whose labels, as they are now, go along by overlap.
+
+        Raises:
+            NotFound: the model was deleted meanwhile.
         """
         with self._lock:
+            self.get(model_id)
             named = self._files.revisions(labels_from) if labels_from else []
             if named:
                 from app.storage.label_edit import carry_labels

@@ -86,3 +86,8 @@ def test_every_answer_carries_the_security_headers(shared_client: TestClient) ->
         headers = shared_client.get(path).headers
         assert "default-src 'self'" in headers["content-security-policy"], path
         assert headers["x-content-type-options"] == "nosniff", path
+
+
+def test_answers_of_the_api_are_never_kept_by_a_browser(shared_client: TestClient) -> None:
+    assert shared_client.get("/api/logs").headers["cache-control"] == "no-store"
+    assert shared_client.get("/").headers["cache-control"] == "no-cache"

@@ -7,6 +7,7 @@ import os
 import signal
 import time
 from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -91,7 +92,14 @@ def test_a_waiting_job_is_queued_and_its_stream_says_that_it_lives(
         assert client.get(f"/api/models/{waiting_model}").json()["status"] == "queued"
         health = client.get("/api/health").json()
         assert (health["jobs_running"], health["jobs_waiting"]) == (1, 1)
-        assert client.delete(f"/api/jobs/{waiting}").json()["status"] == "cancelled"
+        with ThreadPoolExecutor() as pool:
+            following = pool.submit(events, client, waiting)
+            time.sleep(0.5)
+            assert client.delete(f"/api/jobs/{waiting}").json()["status"] == "cancelled"
+            told, comments = following.result(timeout=10)
+        assert [job["status"] for job in told] == ["queued", "cancelled"]
+        assert comments
+        assert all(comment.startswith(":") for comment in comments)
         assert client.delete(f"/api/jobs/{running}").json()["status"] == "cancelled"
         assert client.get(f"/api/models/{waiting_model}").json()["status"] == "cancelled"
 

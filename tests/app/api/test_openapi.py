@@ -65,3 +65,11 @@ def test_the_docs_page_needs_nothing_from_elsewhere(shared_client: TestClient) -
         answer = shared_client.get(f"/{reference}")
         assert answer.status_code == 200
         assert "http" not in answer.text
+
+
+def test_errors_are_described_as_problem_documents(shared_client: TestClient) -> None:
+    paths = shared_client.get("/openapi.json").json()["paths"]
+    for path, operations in paths.items():
+        for operation in operations.values():
+            assert "application/problem+json" in operation["responses"]["4XX"]["content"], path
+            assert "422" not in operation["responses"], path
