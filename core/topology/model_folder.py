@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -35,6 +35,7 @@ class _NodeFile(BaseModel):
     position: tuple[float, float]
     convexity: float
     suggested_room: int = 0
+    came_from: tuple[str, ...] = ()
 
 
 class _EdgeFile(BaseModel):
@@ -76,8 +77,7 @@ def write_model(model: Model, folder: Path) -> None:
     _write_labels(folder / "rooms.png", model.rooms)
     if model.trajectory is not None:
         model.trajectory.write_csv(folder / "trajectory.csv")
-    history = "".join(json.dumps(entry, allow_nan=False) + "\n" for entry in model.history)
-    (folder / "history.jsonl").write_text(history, encoding="utf-8")
+    _write_history(folder / "history.jsonl", model.history)
     (folder / "provenance.json").write_text(
         json.dumps(model.provenance, indent=1, allow_nan=False) + "\n", encoding="utf-8"
     )
@@ -156,6 +156,18 @@ def store_labels(topology: TopologicalMap, folder: Path) -> None:
     write_topology(topology, folder)
 
 
+def store_edit(model: Model, folder: Path) -> None:
+    """Stores a model whose regions have been edited; `topology.json` is replaced last.
+
+    Raises:
+        ModelError: more regions than a 16-bit label image holds.
+    """
+    _write_labels(folder / "regions.png", model.regions)
+    _write_labels(folder / "rooms.png", model.rooms)
+    _write_history(folder / "history.jsonl", model.history)
+    write_topology(model.topology, folder)
+
+
 def _write_labels(path: Path, labels: IntArray) -> None:
     """A 16-bit PNG, row 0 at the top, replaced in one step."""
     if labels.max(initial=0) > MAX_REGIONS:
@@ -193,6 +205,11 @@ def _read_history(path: Path) -> tuple[Mapping[str, Any], ...]:
         return tuple(json.loads(line) for line in lines if line.strip())
     except ValueError as error:
         raise ModelError(f"{path.name} is no JSON: {error}") from error
+
+
+def _write_history(path: Path, history: Sequence[Mapping[str, Any]]) -> None:
+    lines = (json.dumps(entry, allow_nan=False) + "\n" for entry in history)
+    _replace(path, "".join(lines).encode())
 
 
 def _replace(path: Path, data: bytes) -> None:

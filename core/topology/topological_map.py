@@ -19,6 +19,8 @@ class Node:
         position: world `(x, y)` of a free point deep inside the region.
         convexity: share of the region's pairs of points that do not see each other (0 = convex).
         suggested_room: number of the group of nodes that the program takes for one room.
+        came_from: ids of all earlier nodes that a merge or split made it from, its own id among
+            them when it had another shape under it; empty when it is as the modeller cut it.
     """
 
     id: str
@@ -28,6 +30,12 @@ class Node:
     position: tuple[float, float]
     convexity: float
     suggested_room: int = 0
+    came_from: tuple[str, ...] = ()
+
+    @property
+    def name(self) -> str:
+        """What a message calls it: its label, else the number of its region."""
+        return self.label or f"Region {self.region}"
 
 
 @dataclass(frozen=True)
@@ -49,6 +57,11 @@ class Room:
     room: int
     label: str | None
     nodes: tuple[str, ...]
+
+    @property
+    def name(self) -> str:
+        """What a message calls it: its label, else its number."""
+        return self.label or f"room {self.room}"
 
 
 @dataclass(frozen=True)

@@ -7,10 +7,10 @@ from collections.abc import Mapping
 import numpy as np
 from scipy import ndimage
 
-from core.geometry import IntArray
+from core.geometry import BoolArray, IntArray
 from core.mapping import OccupancyGrid
 from core.segmentation.hidden_pairs import hidden_pairs
-from core.topology.contacts import contacts
+from core.topology.contacts import Contact, contacts
 from core.topology.labels import with_rooms
 from core.topology.topological_map import Edge, Node, TopologicalMap
 
@@ -44,29 +44,42 @@ def topology_of(
     for value in values:
         mask = regions == value
         room = int(np.bincount(rooms[mask]).argmax()) if rooms is not None else value
-        nodes.append(
-            Node(
-                ids[value],
-                value,
-                labels.get(value),
-                round(float(mask.sum()) * grid.geometry.cell_area, 3),
-                _deepest_point(grid, mask),
-                round(hidden_pairs(mask, ~grid.free), 3),
-                room,
-            )
-        )
+        nodes.append(measured_node(grid, mask, ids[value], value, labels.get(value), room))
     edges = []
     for contact in contacts(regions, grid.geometry):
-        x, y = contact.middle
-        ends = ids[contact.low], ids[contact.high]
-        edges.append(
-            Edge(f"e{number}", *ends, (round(x, 3), round(y, 3)), round(contact.width_m, 3))
-        )
+        edges.append(measured_edge(contact, f"e{number}", ids))
         number += 1
     return with_rooms(TopologicalMap(tuple(nodes), tuple(edges), (), number))
 
 
-def _deepest_point(grid: OccupancyGrid, mask: IntArray) -> tuple[float, float]:
+def measured_node(
+    grid: OccupancyGrid,
+    mask: BoolArray,
+    node_id: str,
+    region: int,
+    label: str | None,
+    suggested_room: int,
+) -> Node:
+    """A node with what is measured of its region `mask` (rows, cols)."""
+    return Node(
+        node_id,
+        region,
+        label,
+        round(float(mask.sum()) * grid.geometry.cell_area, 3),
+        _deepest_point(grid, mask),
+        round(hidden_pairs(mask, ~grid.free), 3),
+        suggested_room,
+    )
+
+
+def measured_edge(contact: Contact, edge_id: str, ids: Mapping[int, str]) -> Edge:
+    """The edge of a stretch of contact; `ids` are the node ids by region."""
+    x, y = contact.middle
+    ends = ids[contact.low], ids[contact.high]
+    return Edge(edge_id, *ends, (round(x, 3), round(y, 3)), round(contact.width_m, 3))
+
+
+def _deepest_point(grid: OccupancyGrid, mask: BoolArray) -> tuple[float, float]:
     """World position of the point of a region that is farthest from its border."""
     rows, cols = np.nonzero(mask)
     low, high = (rows.min(), cols.min()), (rows.max() + 1, cols.max() + 1)
