@@ -1,0 +1,157 @@
+"""Offline segmentation of any map, the number of regions found: rooms first, then convex nodes.
+
+Rooms are draft cells merged while the border between them is less likely that of two rooms than of
+one (`merging.py`, `boundary_model.py`). Each room is then cut by normalized cuts until every part
+is convex in the sense of hidden pairs (`convex_split.py`). So a room is a union of regions by
+construction, and what counts as a doorway is judged once for both.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+from scipy import ndimage
+
+from core.errors import MapError
+from core.geometry import BoolArray, FloatArray, IntArray
+from core.mapping import OccupancyGrid
+from core.progress import Progress, no_progress, part_of
+from core.segmentation.boundary_model import BoundaryModel, stored_boundary_model
+from core.segmentation.connected import renumber
+from core.segmentation.convex_split import ConvexSplitConfig, split_until_convex
+from core.segmentation.draft_cells import DraftConfig, clearance_of, draft_cells
+from core.segmentation.merging import RegionGraph, Surroundings, merge
+from core.segmentation.uncluttered import ClutterConfig, uncluttered
+
+ROOMS_SHARE = 0.7
+"""Share of the time that goes into the rooms, for the progress."""
+
+
+@dataclass(frozen=True)
+class AutomaticConfig:
+    """Parameters of automatic segmentation.
+
+    Attributes:
+        least_log_odds: that a border needs to part two rooms. Below 0: to leave one room in two
+            pieces costs a person one edit, to swallow one costs more.
+        clutter, draft, convex: of the stages.
+    """
+
+    least_log_odds: float = -0.4
+    clutter: ClutterConfig = field(default_factory=ClutterConfig)
+    draft: DraftConfig = field(default_factory=DraftConfig)
+    convex: ConvexSplitConfig = field(default_factory=ConvexSplitConfig)
+
+
+@dataclass(frozen=True)
+class Segmentation:
+    """Regions and suggested rooms of a map.
+
+    Attributes:
+        regions: (rows, cols) region 1..n of each cell, 0 = none.
+        rooms: (rows, cols) room 1..m of each cell, 0 = none; every region lies in one room.
+        history: the decisions in order.
+    """
+
+    regions: IntArray
+    rooms: IntArray
+    history: tuple[dict[str, Any], ...]
+
+
+def segment_automatically(
+    grid: OccupancyGrid,
+    config: AutomaticConfig | None = None,
+    seed: int = 0,
+    progress: Progress = no_progress,
+    model: BoundaryModel | None = None,
+) -> Segmentation:
+    """Finds regions and rooms of a map.
+
+    Args:
+        grid: the map.
+        config: parameters.
+        seed: of the drawn pairs of points.
+        progress: told all along.
+        model: judges borders; by default the one that comes with the program.
+
+    Raises:
+        MapError: there is no free space.
+    """
+    config = config or AutomaticConfig()
+    resolution = grid.geometry.resolution
+    floor = uncluttered(grid.free, resolution, config.clutter)
+    if not floor.any():
+        raise MapError("the map has no free space to divide")
+    progress(0.0, "looking for rooms")
+    history: list[dict[str, Any]] = []
+    cells, around = draft_of(floor, grid.occupied, resolution, config.draft)
+    rooms = _rooms(cells, around, model or stored_boundary_model(), config, history)
+    regions = _nodes(
+        rooms, floor, resolution, config.convex, history, seed, part_of(progress, ROOMS_SHARE, 1.0)
+    )
+    rooms, regions = (np.where(grid.free, labels, 0) for labels in (rooms, regions))
+    return Segmentation(renumber(regions), renumber(rooms), tuple(history))
+
+
+def draft_of(
+    floor: BoolArray, occupied: BoolArray, resolution: float, config: DraftConfig
+) -> tuple[IntArray, Surroundings]:
+    """Draft cells of a floor and what their borders are measured on."""
+    clearance = clearance_of(floor, resolution)
+    wall = ndimage.binary_dilation(occupied & ~floor, np.ones((3, 3))) & ~floor
+    cells = draft_cells(floor, clearance, resolution, config)
+    return cells, Surroundings(floor, np.asarray(wall), clearance, resolution)
+
+
+def _rooms(
+    cells: IntArray,
+    around: Surroundings,
+    model: BoundaryModel,
+    config: AutomaticConfig,
+    history: list[dict[str, Any]],
+) -> IntArray:
+    """Label image of the rooms."""
+    graph = RegionGraph(cells, around)
+
+    def judge(_: list[tuple[int, int]], features: FloatArray) -> FloatArray:
+        return model.log_odds(features)
+
+    stayed = merge(graph, judge, config.least_log_odds)
+    for (a, b), odds in sorted(stayed.items()):
+        border = graph.borders[a][b]
+        history.append(
+            {
+                "event": "room border",
+                "middle_cell": [round(float(v), 1) for v in border.points.mean(axis=0)],
+                "width_m": round(border.shape.length, 2),
+                "log_odds": round(odds, 2),
+                "accepted": True,
+                "reason": "likely the border of two rooms",
+            }
+        )
+    return np.asarray(graph.parent[cells])
+
+
+def _nodes(
+    rooms: IntArray,
+    floor: BoolArray,
+    resolution: float,
+    config: ConvexSplitConfig,
+    history: list[dict[str, Any]],
+    seed: int,
+    progress: Progress,
+) -> IntArray:
+    """Label image of the rooms' convex parts."""
+    regions = np.zeros(rooms.shape, np.int64)
+    values = np.unique(rooms[rooms > 0])
+    count = 0
+    for i, value in enumerate(values):
+        box = ndimage.find_objects((rooms == value).astype(np.int64))[0]
+        room = rooms[box] == value
+        for part in split_until_convex(room, ~floor[box], resolution, config, history, seed):
+            count += 1
+            regions[box][part] = count
+        progress((i + 1) / len(values), "cutting rooms into convex regions")
+    return regions

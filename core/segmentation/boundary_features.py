@@ -1,0 +1,157 @@
+"""Features of the border between two regions, from which the boundary model judges it."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import ndimage
+
+from core.geometry import BoolArray, FloatArray, IntArray
+from core.segmentation.boundary_points import Pair, boundary_points
+from core.segmentation.boundary_shape import BoundaryShape
+from core.segmentation.convex_hull import convex_hull, polygon_area
+
+FEATURES = (
+    "passage / largest disc of the smaller region (log)",
+    "border / sqrt(area) of the smaller (log)",
+    "border (log m)",
+    "area of the smaller (log m2)",
+    "largest disc of the smaller (log m)",
+    "border / sqrt(area) of the larger (log)",
+    "open share of the common border (the rest is wall)",
+    "common wall (log m)",
+    "longest stretch / border",
+    "width 0.35 m off / stretch (log)",
+    "width 0.7 m off / stretch (log)",
+    "width 1.2 m off / stretch (log)",
+    "width 0.7 m off on the wider side / stretch (log)",
+    "largest disc within 0.75 m / passage (log)",
+    "largest disc within 1.5 m / passage (log)",
+    "jamb, lesser",
+    "jamb, greater",
+    "wall in line, lesser",
+    "wall in line, greater",
+    "hull of both / hulls of each (log)",
+    "solidity of the less solid",
+    "solidity of both",
+    "area / disc of the smaller (log)",
+    "area / disc of the larger (log)",
+    "roughness of the border (m)",
+    "overlap of the hulls",
+)
+WALL_THICKNESS = 0.6
+"""Metres: two regions that a thicker obstacle parts have no wall in common."""
+SMALL = 0.05
+"""Metres: the least width that is told from none."""
+LONG_BORDER = 0.85
+"""Metres of a border per metre of its steps along rows and columns, on average."""
+HULL_OFFSET = 0.1
+"""Square metres added to hulls, so that the smallest ones have an area."""
+
+
+@dataclass(frozen=True)
+class RegionShape:
+    """A region: area (m2), clearance at its deepest point (m), corners of its hull (cells) and the
+    area of the hull (m2)."""
+
+    area: float
+    depth: float
+    hull: FloatArray
+    hull_area: float
+
+    def joined(self, other: RegionShape, resolution: float) -> RegionShape:
+        """The two regions as one."""
+        hull, area = joint_hull(self, other, resolution)
+        return RegionShape(self.area + other.area, max(self.depth, other.depth), hull, area)
+
+
+def joint_hull(a: RegionShape, b: RegionShape, resolution: float) -> tuple[FloatArray, float]:
+    """Hull of two regions (cells) and its area (m2)."""
+    hull = convex_hull(np.concatenate((a.hull, b.hull)))
+    return hull, polygon_area(hull) * resolution**2 + HULL_OFFSET
+
+
+def region_shapes(
+    cells: IntArray, clearance: FloatArray, floor: BoolArray, resolution: float
+) -> dict[int, RegionShape]:
+    """The shape of each label of an image (rows, cols), 0 = none."""
+    count = int(cells.max(initial=0)) + 1
+    area = np.bincount(cells.ravel(), minlength=count) * resolution**2
+    depth = np.zeros(count)
+    np.maximum.at(depth, cells.ravel(), clearance.ravel())
+    shapes = {}
+    for value, box in enumerate(ndimage.find_objects(cells), start=1):
+        if box is None:
+            continue
+        mask = cells[box] == value
+        inner = ndimage.binary_erosion(mask, np.ones((3, 3)))
+        points = np.argwhere(mask & ~inner) + np.array([box[0].start, box[1].start])
+        hull = convex_hull(points.astype(float))
+        hull_area = polygon_area(hull) * resolution**2 + HULL_OFFSET
+        shapes[value] = RegionShape(float(area[value]), float(depth[value]), hull, hull_area)
+    return shapes
+
+
+def common_walls(cells: IntArray, resolution: float) -> dict[Pair, float]:
+    """Metres of wall between each two labels: the border that they would have without it."""
+    distance, nearest = ndimage.distance_transform_edt(cells == 0, return_indices=True)
+    grown = np.where(distance * resolution <= WALL_THICKNESS / 2, cells[tuple(nearest)], 0)
+    open_border = boundary_points(cells)
+    return {
+        pair: max(0, len(points) - len(open_border.get(pair, ()))) * resolution
+        for pair, points in boundary_points(grown).items()
+    }
+
+
+def boundary_features(
+    a: RegionShape,
+    b: RegionShape,
+    points: int,
+    shape: BoundaryShape,
+    wall: float,
+    resolution: float,
+) -> list[float]:
+    """The numbers that `FEATURES` names.
+
+    Args:
+        a, b: the regions.
+        points: number of boundary points between them.
+        shape: the border's surroundings.
+        wall: metres of common wall.
+        resolution: metres per cell.
+    """
+    small, large = (a, b) if a.area <= b.area else (b, a)
+    border = max(points * resolution * LONG_BORDER, shape.length)
+    passage = max(shape.passage, SMALL)
+    _, both = joint_hull(a, b, resolution)
+    log, length = math.log, shape.length
+    return [
+        log(passage / (2 * min(a.depth, b.depth))),
+        log(border / math.sqrt(small.area)),
+        log(border),
+        log(small.area),
+        log(small.depth),
+        log(border / math.sqrt(large.area)),
+        border / (border + wall),
+        log(wall + 2 * SMALL),
+        length / border,
+        log(max(shape.near_35, SMALL) / length),
+        log(max(shape.near_70, SMALL) / length),
+        log(max(shape.near_120, SMALL) / length),
+        log(max(shape.wide_70, SMALL) / length),
+        log(max(shape.open_75, SMALL) / passage),
+        log(max(shape.open_150, SMALL) / passage),
+        shape.jamb_low,
+        shape.jamb_high,
+        shape.wall_low,
+        shape.wall_high,
+        log(both / (a.hull_area + b.hull_area)),
+        min(a.area / a.hull_area, b.area / b.hull_area),
+        (a.area + b.area) / both,
+        log(small.area / (4 * small.depth**2)),
+        log(large.area / (4 * large.depth**2)),
+        shape.roughness,
+        max(0.0, a.hull_area + b.hull_area - both) / min(a.hull_area, b.hull_area),
+    ]

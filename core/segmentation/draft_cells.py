@@ -1,0 +1,112 @@
+"""Draft cells: free space cut at every place that might be the border of a room.
+
+The counterpart of the quadtree for finding rooms: the watershed of the clearance (distance to the
+nearest obstacle) meets at every constriction, wall extensions add the openings that are no
+constriction. Far too many cells; merging (`merging.py`) decides which borders stay.
+"""
+
+from __future__ import annotations
+
+import heapq
+from dataclasses import dataclass, field
+
+import numpy as np
+from scipy import ndimage
+from skimage.draw import line
+from skimage.measure import label
+from skimage.morphology import reconstruction
+from skimage.segmentation import watershed
+
+from core.geometry import BoolArray, FloatArray, IntArray
+from core.segmentation.boundary_points import boundary_points
+from core.segmentation.wall_extensions import ExtensionConfig, wall_extensions
+
+OVERSHOOT = 1.5
+"""Cells by which an extension is drawn longer, so that it surely reaches both walls."""
+
+
+@dataclass(frozen=True)
+class DraftConfig:
+    """Parameters of the draft.
+
+    Attributes:
+        depth: metres by which the clearance must fall between two maxima for two cells.
+        smoothing: standard deviation in cells of the blur of the clearance.
+        least_area: square metres; smaller cells join the neighbour with the longest border.
+        extensions: of the wall extensions.
+    """
+
+    depth: float = 0.05
+    smoothing: float = 1.0
+    least_area: float = 1.0
+    extensions: ExtensionConfig = field(default_factory=ExtensionConfig)
+
+
+def clearance_of(floor: BoolArray, resolution: float) -> FloatArray:
+    """Distance of each cell (rows, cols) to the nearest that is no floor, in metres."""
+    distance = ndimage.distance_transform_edt(np.pad(floor, 1))[1:-1, 1:-1]
+    return np.asarray(distance * resolution)
+
+
+def draft_cells(
+    floor: BoolArray, clearance: FloatArray, resolution: float, config: DraftConfig | None = None
+) -> IntArray:
+    """Label image (rows, cols) of the draft cells 1..n, 0 outside the floor."""
+    config = config or DraftConfig()
+    basins = _basins(floor, clearance, config)
+    barrier = _drawn(wall_extensions(floor, resolution, config.extensions), floor)
+    pieces = label(np.where(barrier, 0, basins), connectivity=1, background=0)
+    nearest = ndimage.distance_transform_edt(
+        pieces == 0, return_distances=False, return_indices=True
+    )
+    cells = np.where(floor, pieces[tuple(nearest)], 0).astype(np.int64)
+    return _without_slivers(cells, config.least_area / resolution**2)
+
+
+def _basins(floor: BoolArray, clearance: FloatArray, config: DraftConfig) -> IntArray:
+    """Watershed of the clearance from its maxima that stand out by the depth (h-maxima)."""
+    smooth = ndimage.gaussian_filter(clearance, config.smoothing) * floor
+    domes = smooth - reconstruction(smooth - config.depth, smooth)
+    markers, _ = ndimage.label((domes >= config.depth - 1e-6) & floor, np.ones((3, 3)))
+    return np.asarray(watershed(-smooth, markers, mask=floor), np.int64)
+
+
+def _drawn(segments: FloatArray, floor: BoolArray) -> BoolArray:
+    """The cells of segments (n, 2, 2) on the floor."""
+    drawn = np.zeros(floor.shape, bool)
+    for start, stop in segments:
+        ahead = stop - start
+        ahead = ahead / max(float(np.hypot(*ahead)), 1e-9) * OVERSHOOT
+        ends = np.rint(np.concatenate((start - ahead, stop + ahead))).astype(int)
+        row, col = line(*ends)
+        inside = (row >= 0) & (col >= 0) & (row < floor.shape[0]) & (col < floor.shape[1])
+        drawn[row[inside], col[inside]] = True
+    return drawn & floor
+
+
+def _without_slivers(cells: IntArray, least: float) -> IntArray:
+    """Small cells given to the neighbour with the longest common border, the smallest first."""
+    count = int(cells.max(initial=0)) + 1
+    area = np.bincount(cells.ravel(), minlength=count).astype(float)
+    border: list[dict[int, int]] = [{} for _ in range(count)]
+    for (low, high), points in boundary_points(cells).items():
+        border[low][high] = border[high][low] = len(points)
+    parent = np.arange(count)
+    waiting = [(area[k], k) for k in range(1, count) if 0 < area[k] < least]
+    heapq.heapify(waiting)
+    while waiting:
+        size, cell = heapq.heappop(waiting)
+        if parent[cell] != cell or size != area[cell] or not border[cell]:
+            continue
+        to = max(border[cell], key=lambda other: (border[cell][other], -other))
+        parent[parent == cell] = to
+        area[to] += area[cell]
+        for other, length in border[cell].items():
+            del border[other][cell]
+            if other != to:
+                border[to][other] = border[other][to] = border[to].get(other, 0) + length
+        border[cell] = {}
+        if area[to] < least:
+            heapq.heappush(waiting, (area[to], to))
+    merged = np.unique(parent[cells], return_inverse=True)[1].reshape(cells.shape)
+    return np.asarray(merged + (0 if (cells == 0).any() else 1), np.int64)

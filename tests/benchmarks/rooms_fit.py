@@ -1,0 +1,196 @@
+"""Fits the boundary model to maps with ground-truth rooms and cross-validates it over buildings.
+
+    python tests/benchmarks/rooms_fit.py --data SHARED [--folds 6] [--write]
+
+Needs scikit-learn. Every map weighs so that each group of maps counts the same. A border is real
+when most of the floor on both sides belongs to different rooms; samples are the borders that come
+up while draft cells merge in several orders, in the last round those that the model itself meets
+(the imitation learning of Ross et al., 2011). `--write` fits to all maps and stores the model.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import sys
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from rooms_maps import GROUPS, MapOfRooms, load_maps, scored
+
+import core.segmentation.boundary_model as boundary_model
+from core.geometry import BoolArray, FloatArray
+from core.segmentation.automatic import AutomaticConfig, draft_of, segment_automatically
+from core.segmentation.boundary_model import BoundaryModel
+from core.segmentation.merging import RegionGraph, merge
+from core.segmentation.uncluttered import uncluttered
+
+TREES = {"max_leaf_nodes": 6, "max_iter": 80, "min_samples_leaf": 40, "learning_rate": 0.1,
+         "l2_regularization": 1.0, "random_state": 0}  # fmt: skip
+NEVER = 1e3
+FEWEST = 20
+
+
+@dataclass(frozen=True)
+class Samples:
+    """Features (n, f), whether the border is real (n,), weight (n,)."""
+
+    features: FloatArray
+    real: BoolArray
+    weight: FloatArray
+
+    def __add__(self, other: Samples) -> Samples:
+        return Samples(
+            np.concatenate((self.features, other.features)),
+            np.concatenate((self.real, other.real)),
+            np.concatenate((self.weight, other.weight)),
+        )
+
+
+class Draft:
+    """Draft cells of a map and how much of each true room they hold."""
+
+    def __init__(self, entry: MapOfRooms, config: AutomaticConfig) -> None:
+        grid = entry.grid
+        floor = uncluttered(grid.free, grid.geometry.resolution, config.clutter)
+        self.cells, self.around = draft_of(
+            floor, grid.occupied, grid.geometry.resolution, config.draft
+        )
+        known = (entry.truth > 0) & grid.free & (self.cells > 0)
+        self.held = np.zeros((int(self.cells.max()) + 1, int(entry.truth.max()) + 1))
+        np.add.at(self.held, (self.cells[known], entry.truth[known]), 1)
+
+    def samples(self, order: str, seed: int = 0, model: BoundaryModel | None = None) -> Samples:
+        """Borders met while merging in an order: first, random, open or the model's own."""
+        rng = np.random.default_rng(seed)
+        held = self.held.copy()
+        met: dict[tuple[int, int], tuple[FloatArray, bool, float]] = {}
+
+        def judge(pairs: list[tuple[int, int]], features: FloatArray) -> FloatArray:
+            own = model.log_odds(features) if model else np.full(len(pairs), NEVER)
+            for k, (a, b) in enumerate(pairs):
+                if min(held[a].sum(), held[b].sum()) < FEWEST:
+                    continue
+                share_a, share_b = held[a] / held[a].sum(), held[b] / held[b].sum()
+                real = bool(share_a.argmax() != share_b.argmax())
+                met[a, b] = (features[k], real, float(min(share_a.max(), share_b.max())) ** 3)
+                if not model and order != "first" and not real:
+                    own[k] = rng.random() if order == "random" else -features[k][6]
+            return own
+
+        def merged(kept: int, gone: int) -> None:
+            held[kept] += held[gone]
+            if not model:
+                for pair in [p for p in met if gone in p and met[p][1]]:
+                    del met[pair]
+
+        limit = AutomaticConfig().least_log_odds if model else NEVER / 2
+        merge(RegionGraph(self.cells, self.around), judge, limit, merged)
+        rows = list(met.values())
+        if not rows:
+            return Samples(np.zeros((0, 26)), np.zeros(0, bool), np.zeros(0))
+        return Samples(
+            np.array([r[0] for r in rows]),
+            np.array([r[1] for r in rows]),
+            np.array([r[2] for r in rows]),
+        )
+
+
+def fit(samples: list[Samples], groups: list[str]) -> BoundaryModel:
+    """Trees that tell real borders from others."""
+    from sklearn.ensemble import HistGradientBoostingClassifier
+
+    share = {group: 1 / groups.count(group) for group in set(groups)}
+    weight = np.concatenate(
+        [s.weight / max(1, len(s.weight)) * share[g] for s, g in zip(samples, groups, strict=True)]
+    )
+    x = np.concatenate([s.features for s in samples])
+    y = np.concatenate([s.real for s in samples])
+    trees = HistGradientBoostingClassifier(**TREES).fit(x, y, weight * len(weight) / weight.sum())
+    return as_model(trees)
+
+
+def as_model(trees: object) -> BoundaryModel:
+    """The splits of fitted trees."""
+    parts: dict[str, list[float]] = {k: [] for k in ("root", "f", "t", "low", "high", "v")}
+    for predictor in trees._predictors:  # type: ignore[attr-defined]
+        knots, start = predictor[0].nodes, len(parts["f"])
+        parts["root"].append(start)
+        leaf = knots["is_leaf"].astype(bool)
+        parts["f"] += np.where(leaf, -1, knots["feature_idx"].astype(int)).tolist()
+        parts["t"] += knots["num_threshold"].tolist()
+        parts["low"] += (knots["left"].astype(int) + start).tolist()
+        parts["high"] += (knots["right"].astype(int) + start).tolist()
+        parts["v"] += np.where(leaf, knots["value"], 0.0).tolist()
+    whole = {k: np.array(parts[k], np.int64) for k in ("root", "f", "low", "high")}
+    base = float(np.ravel(trees._baseline_prediction)[0])  # type: ignore[attr-defined]
+    exact = BoundaryModel(
+        whole["root"], whole["f"], np.array(parts["t"]), whole["low"], whole["high"],
+        np.array(parts["v"]), base,
+    )  # fmt: skip
+    return BoundaryModel.from_dict(exact.as_dict())
+
+
+def trained(
+    drafts: list[Draft], base: list[Samples], groups: list[str], rounds: int
+) -> BoundaryModel:
+    """A model fitted to merging orders, then again with the borders that it meets itself."""
+    samples = list(base)
+    model = fit(samples, groups)
+    for _ in range(rounds):
+        samples = [s + d.samples("own", model=model) for s, d in zip(samples, drafts, strict=True)]
+        model = fit(samples, groups)
+    return model
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("--data", type=Path, required=True)
+    parser.add_argument("--folds", type=int, default=6)
+    parser.add_argument("--rounds", type=int, default=1)
+    parser.add_argument("--write", action="store_true")
+    options = parser.parse_args()
+    maps = load_maps(options.data)
+    config = AutomaticConfig()
+    drafts = [Draft(m, config) for m in maps]
+    base = [
+        d.samples("first") + d.samples("random", 1) + d.samples("random", 2) + d.samples("open")
+        for d in drafts
+    ]
+    groups = [m.group for m in maps]
+    out = sys.stdout
+    out.write(f"{sum(len(s.real) for s in base)} samples of {len(maps)} maps\n")
+    if options.write:
+        model = trained(drafts, base, groups, options.rounds)
+        path = Path(boundary_model.__file__).with_name(boundary_model.STORED)
+        path.write_text(json.dumps(model.as_dict()) + "\n", encoding="utf-8")
+        out.write(f"{len(model.root)} trees -> {path.name}\n")
+        return
+    buildings = sorted({m.building for m in maps})
+    np.random.default_rng(1).shuffle(buildings)
+    fold = {building: i % options.folds for i, building in enumerate(buildings)}
+    score: dict[str, float] = {}
+    for k in range(options.folds):
+        train = [i for i, m in enumerate(maps) if fold[m.building] != k]
+        model = trained(
+            [drafts[i] for i in train], [base[i] for i in train], [groups[i] for i in train],
+            options.rounds,
+        )  # fmt: skip
+        for m in (m for m in maps if fold[m.building] == k):
+            rooms = segment_automatically(m.grid, config, model=model).rooms
+            score[m.name] = scored(m, rooms)["pq"]
+            out.write(f"fold {k}  {m.name:34s} pq {score[m.name]:.3f}\n")
+            out.flush()
+    for group in GROUPS:
+        mine = [score[m.name] for m in maps if m.group == group]
+        out.write(f"{group:16s} pq {np.mean(mine):.3f}\n")
+    writer = csv.writer(out)
+    writer.writerow(("all", f"{np.mean(list(score.values())):.3f}"))
+
+
+if __name__ == "__main__":
+    main()
