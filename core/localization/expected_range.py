@@ -42,7 +42,7 @@ class ExpectedRangeConfig:
 
     cell: float = 0.10
     directions: int = 144
-    beam_share: float = 0.8
+    beam_share: float = 1.0
     reach: float = 6.0
     border: int = 2
 
@@ -164,7 +164,16 @@ def _nearest_in_beam(codes: ByteArray, half: int) -> ByteArray:
                 best = codes[d, r, c]
                 for k in range(-half, half + 1):
                     code = codes[(d + k) % count, r, c]
-                    if (code & 127) < (best & 127):
+                    if _nearer(code, best):
                         best = code
                 out[d, r, c] = best
     return out
+
+
+@numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator,unused-ignore]
+def _nearer(code: int, best: int) -> bool:
+    """Whether a ray's surface answers before another's; an open border answers only alone."""
+    is_open, best_open = code > NOTHING, best > NOTHING
+    if is_open != best_open:
+        return best_open if code != NOTHING else False
+    return code < best

@@ -97,7 +97,8 @@ def sonar_tables(
         key = (sonar.beam_width, sonar.max_range)
         if key not in kinds:
             kinds[key] = len(tables)
-            codes = beam_codes(places.rays, sonar.beam_width, ranges)
+            nearest = beam_codes(places.rays, sonar.beam_width, ranges)
+            codes = np.stack((nearest, places.rays.codes), axis=-1)
             standable = places.rays.standable
             tables.append(
                 SonarTables(

@@ -44,7 +44,7 @@ class PoseGridConfig:
 
     headings: int = 72
     unknown_at_start: float = 0.05
-    unknown_fit: float = 0.2
+    unknown_fit: float = 0.12
     coarse_sigma: float = 0.15
     ranges: ExpectedRangeConfig = field(default_factory=ExpectedRangeConfig)
     likelihood: SonarLikelihoodConfig = field(default_factory=SonarLikelihoodConfig)
@@ -131,7 +131,7 @@ class PoseGridLocalizer:
         kind = self.kind_of_sonar[segment.sonar]
         return float(
             sum(
-                sonar.table.max(axis=1)[segment.codes[kind == k]].sum()
+                np.log(sonar.table.max(axis=2).sum(axis=1))[segment.codes[kind == k]].sum()
                 for k, sonar in enumerate(self.kinds)
             )
         )

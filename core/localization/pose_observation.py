@@ -29,6 +29,8 @@ TURN = 3
 """Headings of a block; the middle one stands for them in the coarse pass."""
 COARSE = 2
 """The coarse pass takes every COARSE-th cell in both directions and every COARSE-th reading."""
+PRODUCT = 8
+"""Ratios that are multiplied before a logarithm is taken; float32 holds the product of so many."""
 FAINT = 1e-30
 """Prior mass below which a block is as good as empty."""
 
@@ -53,7 +55,12 @@ class ObservationConfig:
 
 @dataclass(frozen=True)
 class SonarTables:
-    """One kind of sonar in one map: expected range codes and the likelihoods of its readings."""
+    """One kind of sonar in one map.
+
+    Attributes:
+        codes: (directions, rows, cols, 2) expected range codes: nearest in the beam, on its axis.
+        table: likelihood ratios of its readings; broad: the same for the coarse pass.
+    """
 
     codes: ByteArray
     table: Table
@@ -171,21 +178,25 @@ def _score_samples(
     out: ScoreArray,
 ) -> None:
     """Adds to `out` (groups, blocks) the best score among the samples of each block."""
-    rows, cols = codes.shape[1:]
+    rows, cols = codes.shape[1:3]
     for g in range(out.shape[0]):
         for b in range(out.shape[1]):
             best = np.float32(-np.inf)
             for s in range(samples.shape[1]):
                 if samples[b, s, 0] < 0:
                     break
-                total = np.float32(0)
+                total, product = np.float32(0), np.float32(1)
                 for k in range(readings.size):
                     r = samples[b, s, 0] + offsets[g, k, 0]
                     c = samples[b, s, 1] + offsets[g, k, 1]
-                    code = 0
+                    ratio = table[readings[k], 0, 0] + table[readings[k], 1, 0]
                     if 0 <= r < rows and 0 <= c < cols:
-                        code = codes[offsets[g, k, 2], r, c]
-                    total += table[readings[k], code]
+                        seen = codes[offsets[g, k, 2], r, c]
+                        ratio = table[readings[k], 0, seen[0]] + table[readings[k], 1, seen[1]]
+                    product *= ratio
+                    if k % PRODUCT == PRODUCT - 1 or k == readings.size - 1:
+                        total += math.log(product)
+                        product = np.float32(1)
                 best = max(best, total)
             out[g, b] += best
 
@@ -202,26 +213,30 @@ def _score_blocks(
 ) -> None:
     """Adds the readings of one kind of sonar to the scores of the active blocks."""
     headings, rows, cols = score.shape
-    total = np.empty((BLOCK, BLOCK), np.float32)
+    product = np.ones((BLOCK, BLOCK), np.float32)
     for a in range(len(active)):
         row, col = corners[active[a, 1]]
         for h in range(active[a, 0] * TURN, min(active[a, 0] * TURN + TURN, headings)):
-            total[:] = 0
             for k in range(readings.size):
                 r, c = row + offsets[h, k, 0], col + offsets[h, k, 1]
-                likelihood, seen = table[readings[k]], codes[offsets[h, k, 2]]
+                ratio, seen = table[readings[k]], codes[offsets[h, k, 2]]
                 if r >= 0 and c >= 0 and r + BLOCK <= rows and c + BLOCK <= cols:
                     for i in range(BLOCK):
                         for j in range(BLOCK):
-                            total[i, j] += likelihood[seen[r + i, c + j]]
-                    continue
-                for i in range(BLOCK):
-                    for j in range(BLOCK):
-                        inside = 0 <= r + i < rows and 0 <= c + j < cols
-                        total[i, j] += likelihood[seen[r + i, c + j] if inside else 0]
-            for i in range(min(BLOCK, rows - row)):
-                for j in range(min(BLOCK, cols - col)):
-                    score[h, row + i, col + j] += total[i, j]
+                            near, axis = seen[r + i, c + j]
+                            product[i, j] *= ratio[0, near] + ratio[1, axis]
+                else:
+                    for i in range(BLOCK):
+                        for j in range(BLOCK):
+                            near, axis = np.uint8(0), np.uint8(0)
+                            if 0 <= r + i < rows and 0 <= c + j < cols:
+                                near, axis = seen[r + i, c + j]
+                            product[i, j] *= ratio[0, near] + ratio[1, axis]
+                if k % PRODUCT == PRODUCT - 1 or k == readings.size - 1:
+                    for i in range(min(BLOCK, rows - row)):
+                        for j in range(min(BLOCK, cols - col)):
+                            score[h, row + i, col + j] += math.log(product[i, j])
+                    product[:] = 1
 
 
 @numba.njit(cache=True, nogil=True)  # type: ignore[untyped-decorator,unused-ignore]

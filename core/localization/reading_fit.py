@@ -58,12 +58,13 @@ def _explained(
     rows, cols = np.where(inside[:, None], cells, 0).T
     angle = pose[2] - grid.geometry.origin[2] + segment.heading[heard]
     kind = kind_of_sonar[segment.sonar[heard]]
-    expected = np.full(len(rows), np.inf)
+    allowed = config.tolerance + config.tolerance_per_m * segment.ranges[heard]
+    explained = np.zeros(len(rows), bool)
     for k, sonar in enumerate(kinds):
         directions = sonar.codes.shape[0]
         turn = np.round(angle / (2 * math.pi / directions)).astype(np.int64) % directions
         code = sonar.codes[turn, rows, cols] & NOTHING
-        own = (kind == k) & inside & (code > 0) & (code != NOTHING)
-        expected[own] = code[own] * RANGE_STEP
-    allowed = config.tolerance + config.tolerance_per_m * segment.ranges[heard]
-    return np.asarray(np.abs(expected - segment.ranges[heard]) <= allowed)
+        off = np.abs(code * RANGE_STEP - segment.ranges[heard][:, None])
+        fits = (off <= allowed[:, None]) & (code > 0) & (code != NOTHING)
+        explained |= (kind == k) & inside & fits.any(axis=1)
+    return explained

@@ -5,8 +5,12 @@ A reading z against the expected range d of the nearest surface in the beam is o
 front of it that the map has not (a person, a chair, cross-talk); an echo of something behind it,
 because the surface turned the sound away; or anything. No echo is a fifth.
 
-The table holds log-likelihood *ratios* against a place of which nothing is known, where the reading
-is as likely as at an average place of this map. `unknown` therefore scores 0 for every reading.
+A wide beam meets many surfaces. Most echoes come from the nearest of them or from the one on the
+axis, so the reading is a mixture over these two (together they tell a third more about the place
+than either, measured on simulated homes).
+
+The table holds likelihood *ratios* against a place of which nothing is known, where the reading
+is as likely as at an average place of this map. A place outside the map therefore has the ratio 1.
 """
 
 from __future__ import annotations
@@ -28,7 +32,8 @@ INSIDE = 0
 TINY = 1e-9
 
 Table = npt.NDArray[np.float32]
-"""(NO_ECHO + 1, CODES) log-likelihood ratio by reading code and expected range code."""
+"""(NO_ECHO + 1, 2, CODES): likelihood ratio by reading code, surface (nearest in the beam, on its
+axis) and expected range code; the ratio of a reading is the sum over the two surfaces."""
 
 
 @dataclass(frozen=True)
@@ -36,32 +41,33 @@ class SonarLikelihoodConfig:
     """The beam model; chosen on simulated homes.
 
     Attributes:
+        nearest: share of echoes that come from the nearest surface in the beam; the others come from
+            the surface on the beam's axis.
         hit, short, long, anything: shares of the four kinds of echo where an obstacle is expected.
-        open_hit, open_long: the same where the border of the unknown is expected (the wall may be
-            there or anywhere behind).
+        open_hit, open_long: the same where only the border of the unknown is expected: the wall may
+            be anywhere behind it.
         sigma, sigma_per_m: standard deviation of an echo: map error, pose error, sonar noise (m).
         long_decay: metres over which echoes from behind the surface become rarer.
         no_echo: share of readings without echo although a surface is within reach.
         no_echo_beyond: the same where nothing is within reach.
         soft_reach: metres around the sonar's maximum range over which reach fades.
-        floor: lowest log-ratio of one reading; no reading alone rules a place out.
-        inside: log-ratio of a reading taken from a place that is no free ground.
+        inside: ratio of a reading taken from a place that is no free ground.
     """
 
-    hit: float = 0.62
-    short: float = 0.08
-    long: float = 0.22
+    nearest: float = 0.5
+    hit: float = 0.60
+    short: float = 0.07
+    long: float = 0.25
     anything: float = 0.08
-    open_hit: float = 0.30
-    open_long: float = 0.45
-    sigma: float = 0.05
+    open_hit: float = 0.03
+    open_long: float = 0.85
+    sigma: float = 0.07
     sigma_per_m: float = 0.02
-    long_decay: float = 0.6
-    no_echo: float = 0.06
+    long_decay: float = 1.2
+    no_echo: float = 0.07
     no_echo_beyond: float = 0.5
     soft_reach: float = 0.3
-    floor: float = -4.0
-    inside: float = -1.5
+    inside: float = 0.22
 
 
 def reading_codes(ranges: FloatArray) -> IntArray:
@@ -73,21 +79,24 @@ def reading_codes(ranges: FloatArray) -> IntArray:
 def likelihood_table(
     codes: ByteArray, standable: BoolArray, max_range: float, config: SonarLikelihoodConfig
 ) -> Table:
-    """The log-likelihood ratios of one kind of sonar in one map.
+    """The likelihood ratios of one kind of sonar in one map.
 
     Args:
-        codes: (directions, rows, cols) expected ranges of the sonar's beam width.
+        codes: (directions, rows, cols, 2) expected ranges: nearest in the beam, on its axis.
         standable: (rows, cols) the places that count for the average place.
         max_range: of the sonar, metres.
         config: the beam model.
     """
     likelihood = np.stack([_likelihood(code, max_range, config) for code in range(CODES)], axis=1)
-    seen = np.bincount(codes[:, standable].ravel(), minlength=CODES).astype(float)
-    average = likelihood @ (seen / max(seen.sum(), 1.0))
-    ratio = np.log(np.maximum(likelihood, TINY)) - np.log(np.maximum(average, TINY))[:, None]
-    ratio = np.maximum(ratio, config.floor)
-    ratio[:, INSIDE] = config.inside
-    ratio[average < TINY] = 0.0
+    shares = (config.nearest, 1 - config.nearest)
+    parts = [share * likelihood for share in shares]
+    average = np.zeros(NO_ECHO + 1)
+    for surface, part in enumerate(parts):
+        seen = np.bincount(codes[:, standable, surface].ravel(), minlength=CODES).astype(float)
+        average += part @ (seen / max(seen.sum(), 1.0))
+    ratio = np.stack(parts, axis=1) / np.maximum(average, TINY)[:, None, None]
+    ratio[average < TINY] = np.array(shares)[:, None]
+    ratio[:, :, INSIDE] = config.inside * np.array(shares)
     return np.asarray(ratio, np.float32)
 
 
