@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from fastapi import APIRouter, FastAPI
 
-from app.api import docs_page, health, jobs, labels, logs, models
+from app.api import docs_page, edits, health, jobs, labels, logs, models
 from app.api.static_pages import STATIC_FOLDER, StaticPages
 from app.body_limit import BodyLimit
 from app.demo import load_samples
@@ -42,7 +42,14 @@ def create_app(settings: Settings) -> FastAPI:
     app.state.view = LazyView(lambda model_id: _load_model(app, model_id), events, settings)
     install_error_handlers(app)
     api = APIRouter(prefix="/api", responses=PROBLEM_RESPONSES)
-    for router in (health.router, logs.router, models.router, labels.router, jobs.router):
+    for router in (
+        health.router,
+        logs.router,
+        models.router,
+        labels.router,
+        edits.router,
+        jobs.router,
+    ):
         api.include_router(router)
     app.include_router(api)
     app.include_router(docs_page.router)

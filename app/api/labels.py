@@ -30,4 +30,4 @@ def label_room(model_id: str, room_id: str, body: LabelBody, services: ServicesD
 
 
 def _edited(services: Services, model_id: str, edit: Edit) -> ModelDetail:
-    return model_detail(services, services.models.edit(model_id, edit))
+    return model_detail(services, services.models.edit(model_id, edit, while_made=True))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 from http import HTTPStatus
+from typing import Any
 
 from fastapi import APIRouter, Request, Response
 
@@ -134,7 +135,20 @@ def model_detail(services: Services, record: ModelRecord) -> ModelDetail:
             folder = services.models.folder(record.id)
             topology = read_json(folder / TOPOLOGY_FILE)
             fields |= topology | {"provenance": read_json(folder / PROVENANCE_FILE)}
+            fields |= _undoable(services, record)
             break
         except FileNotFoundError:
             continue  # an edit has just replaced the revision
     return ModelDetail(**fields)
+
+
+def _undoable(services: Services, record: ModelRecord) -> dict[str, Any]:
+    history = services.models.history(record.id)
+    if history is None:
+        return {}
+    return {
+        "can_undo": bool(history.past) and record.status.ended,
+        "can_redo": bool(history.future) and record.status.ended,
+        "last_edit": history.past[-1].what if history.past else None,
+        "undone_edit": history.future[-1].what if history.future else None,
+    }

@@ -156,6 +156,7 @@ class Node(BaseModel):
     area_m2: float
     position: tuple[float, float]
     convexity: float
+    came_from: list[str] = Field([], description="earlier nodes that an edit made it from")
 
 
 class Edge(BaseModel):
@@ -186,6 +187,10 @@ class ModelDetail(ModelSummary):
     edges: list[Edge] = []
     rooms: list[Room] = []
     provenance: dict[str, Any] = {}
+    can_undo: bool = False
+    can_redo: bool = False
+    last_edit: str | None = Field(None, description="what undo would take back")
+    undone_edit: str | None = Field(None, description="what redo would do again")
 
 
 class JobDetail(BaseModel):

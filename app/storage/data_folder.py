@@ -78,6 +78,14 @@ class DataFolder:
         folder.rename(place)
         _sync(place.parent)
 
+    def replace_file(self, place: Path, content: bytes) -> None:
+        """Makes a file hold something else in one step."""
+        fresh = self.temp / new_id()
+        fresh.write_bytes(content)
+        _sync(fresh)
+        fresh.replace(place)
+        _sync(place.parent)
+
     def discard(self, place: Path) -> None:
         """Makes a folder disappear in one step, then frees its space."""
         if place.exists():
@@ -87,8 +95,9 @@ class DataFolder:
 
 
 def size_on_disk(folder: Path) -> int:
-    """Bytes of all files in a folder."""
-    return sum(path.stat().st_size for path in folder.rglob("*") if path.is_file())
+    """Bytes of all files in a folder; what several of its folders share counts once."""
+    found = (path.stat() for path in folder.rglob("*") if path.is_file())
+    return sum({(stat.st_dev, stat.st_ino): stat.st_size for stat in found}.values())
 
 
 def _sync(path: Path) -> None:

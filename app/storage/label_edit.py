@@ -14,11 +14,12 @@ from core.topology.model_folder import read_model, read_topology, store_labels
 def node_label(node_id: str, label: str | None) -> Edit:
     """Names a node; None takes its name away. The edit raises NotFound without such a node."""
 
-    def edit(folder: Path) -> None:
+    def edit(folder: Path) -> str:
         topology = read_topology(folder)
         if node_id not in {node.id for node in topology.nodes}:
             raise NotFound("node", node_id)
         store_labels(label_node(topology, node_id, label), folder)
+        return _what(topology.node(node_id).name, label)
 
     return edit
 
@@ -26,13 +27,19 @@ def node_label(node_id: str, label: str | None) -> Edit:
 def room_label(room_id: str, label: str | None) -> Edit:
     """Names all nodes of a room. The edit raises NotFound without such a room."""
 
-    def edit(folder: Path) -> None:
+    def edit(folder: Path) -> str:
         topology = read_topology(folder)
         if room_id not in {room.id for room in topology.rooms}:
             raise NotFound("room", room_id)
         store_labels(label_room(topology, room_id, label), folder)
+        return _what(topology.room(room_id).name, label)
 
     return edit
+
+
+def _what(before: str, label: str | None) -> str:
+    """What was done, in words."""
+    return f"took the name of {before} away" if label is None else f"named {before} “{label}”"
 
 
 def carry_labels(earlier: Path, later: Path) -> None:

@@ -16,6 +16,7 @@ from app.errors import Conflict, NotFound
 from app.events import ModelEvents
 from app.storage.data_folder import DataFolder, new_id
 from app.storage.database import Database
+from app.storage.edit_history import EditHistory
 from app.storage.model_facts import facts_of
 from app.storage.model_files import Edit, ModelFiles
 from app.storage.records import ModelRecord, Status
@@ -108,9 +109,8 @@ class ModelStore:
 
     def set_status(self, model_id: str, status: Status, error: str | None = None) -> None:
         """Notes how far the job is; a model that was whole before stays whole when it fails."""
-        whole = status in (Status.FAILED, Status.CANCELLED) and bool(
-            self._files.revisions(model_id)
-        )
+        ended_badly = status in (Status.FAILED, Status.CANCELLED)
+        whole = ended_badly and self._files.history(model_id) is not None
         self._set(model_id, status=Status.DONE if whole else status, error=error)
 
     def publish(
@@ -133,32 +133,65 @@ class ModelStore:
         """
         with self._lock:
             self.get(model_id)
-            named = self._files.revisions(labels_from) if labels_from else []
-            if named:
+            named = self._files.present(labels_from) if labels_from else None
+            if named is not None:
                 from app.storage.label_edit import carry_labels
 
-                carry_labels(named[-1], prepared)
+                carry_labels(named, prepared)
                 facts = facts_of(prepared)
-            self._files.switch(model_id, prepared)
+            self._files.renew(model_id, prepared)
             with self._database.write() as connection:
                 _link_logs(connection, model_id, log_ids)
             self._index(model_id, facts, status=Status.DONE, error=None, updated=time.time())
         self._events.model_changed(model_id)
 
-    def edit(self, model_id: str, edit: Edit) -> ModelRecord:
+    def edit(self, model_id: str, edit: Edit, while_made: bool = False) -> ModelRecord:
         """Makes a revision that differs from the present one by an edit.
+
+        Args:
+            while_made: allowed while a job makes the model anew, which then takes the edit along.
 
         Raises:
             NotFound: there is no such model.
-            Conflict: the model is not made yet.
+            Conflict: the model is not made yet, or a job is at it.
             Whatever `edit` raises; the model is then as before.
         """
         with self._lock:
-            self.folder(model_id)
-            self._files.edit(model_id, edit)
-            self._index(model_id, facts_of(self.folder(model_id)), updated=time.time())
-        self._events.model_changed(model_id)
-        return self.get(model_id)
+            history = self._editable(model_id, while_made)
+            self._files.edit(model_id, history, edit)
+            return self._changed(model_id)
+
+    def undo(self, model_id: str, revision: int | None = None) -> ModelRecord:
+        """Takes the last edit back.
+
+        Args:
+            revision: the one that is expected; None undoes whatever was last.
+
+        Raises:
+            NotFound: there is no such model.
+            Conflict: there is nothing to undo, the model has changed since, or a job is at it.
+        """
+        with self._lock:
+            history = self._editable(model_id)
+            _check_revision(history, revision)
+            if not history.past:
+                raise Conflict("there is nothing to undo")
+            self._files.turn(model_id, history.undone())
+            return self._changed(model_id)
+
+    def redo(self, model_id: str, revision: int | None = None) -> ModelRecord:
+        """Does the edit again that was taken back last; arguments and errors as for `undo`."""
+        with self._lock:
+            history = self._editable(model_id)
+            _check_revision(history, revision)
+            if not history.future:
+                raise Conflict("there is nothing to redo")
+            self._files.turn(model_id, history.redone())
+            return self._changed(model_id)
+
+    def history(self, model_id: str) -> EditHistory | None:
+        """What can be undone and redone; None when the model is not made yet."""
+        return self._files.history(model_id)
 
     def folder(self, model_id: str) -> Path:
         """The model folder.
@@ -167,10 +200,10 @@ class ModelStore:
             NotFound: there is no such model.
             Conflict: it is not made yet.
         """
-        revisions = self._files.revisions(model_id)
-        if not revisions:
+        present = self._files.present(model_id)
+        if present is None:
             raise Conflict(f"the model {self.get(model_id).name!r} is not made yet")
-        return revisions[-1]
+        return present
 
     def load(self, model_id: str) -> Model | None:
         """The model itself; None where there is none or it is not made yet."""
@@ -196,13 +229,30 @@ class ModelStore:
         for model_id in self._files.known() - set(status_of):
             self._files.remove(model_id)
         for model_id, status in status_of.items():
-            self._files.remove_old_revisions(model_id)
+            self._files.recover(model_id)
             if not status.ended:
                 self.set_status(model_id, Status.FAILED, reason)
-            if self._files.revisions(model_id):
+            if self._files.history(model_id) is not None:
                 self._index(model_id, facts_of(self.folder(model_id)))
 
+    def _editable(self, model_id: str, while_made: bool = False) -> EditHistory:
+        record, history = self.get(model_id), self._files.history(model_id)
+        if history is None:
+            raise Conflict(f"the model {record.name!r} is not made yet")
+        if not record.status.ended and not while_made:
+            raise Conflict(
+                f"the model {record.name!r} is being made; wait for its job or cancel it"
+            )
+        return history
+
+    def _changed(self, model_id: str) -> ModelRecord:
+        """Brings the index up to date after a change and tells of it."""
+        self._index(model_id, facts_of(self.folder(model_id)), updated=time.time())
+        self._events.model_changed(model_id)
+        return self.get(model_id)
+
     def _index(self, model_id: str, facts: Mapping[str, Any], **values: Any) -> None:
+        history = self._files.history(model_id)
         self._set(
             model_id,
             **values,
@@ -211,7 +261,7 @@ class ModelStore:
             area_m2=facts["area_m2"],
             labels=json.dumps(facts["labels"], ensure_ascii=False),
             size_bytes=self._files.size(model_id),
-            revision=int(self.folder(model_id).name),
+            revision=0 if history is None else history.revision,
         )
 
     def _set(self, model_id: str, **values: Any) -> None:
@@ -221,6 +271,11 @@ class ModelStore:
             )
         if done.rowcount == 0:
             raise NotFound("model", model_id)
+
+
+def _check_revision(history: EditHistory, revision: int | None) -> None:
+    if revision is not None and revision != history.revision:
+        raise Conflict("the model has changed since")
 
 
 def _link_logs(connection: Connection, model_id: str, log_ids: Sequence[str]) -> None:

@@ -12,7 +12,9 @@ from app.errors import Conflict, NotFound
 from app.events import ModelEvents
 from app.storage.data_folder import DataFolder
 from app.storage.database import Database
+from app.storage.edit_history import HISTORY_FILE
 from app.storage.model_facts import facts_of
+from app.storage.model_files import ModelFiles
 from app.storage.model_store import ModelStore
 from app.storage.records import Status
 from app.storage.search import Sorting
@@ -58,14 +60,19 @@ def home(tmp_path: Path) -> Home:
     return Home(tmp_path / "data")
 
 
-def relabel(label: str) -> Callable[[Path], None]:
-    def edit(folder: Path) -> None:
+def relabel(label: str) -> Callable[[Path], str]:
+    def edit(folder: Path) -> str:
         path = folder / "topology.json"
         topology = json.loads(path.read_text())
         topology["nodes"][0]["label"] = label
         path.write_text(json.dumps(topology))
+        return f"named it {label}"
 
     return edit
+
+
+def revisions_of(home: Home, model_id: str) -> list[str]:
+    return sorted(p.name for p in (home.root / "models" / model_id).glob("0*"))
 
 
 def test_a_new_model_has_no_files_until_it_is_published(home: Home) -> None:
@@ -88,14 +95,14 @@ def test_an_edit_makes_a_revision_and_shares_what_it_leaves_alone(home: Home) ->
     edited = home.models.edit(model_id, relabel("kitchen"))
     assert (edited.revision, edited.labels) == (2, ("kitchen",))
     assert (home.models.folder(model_id) / "map.pgm").stat().st_ino == before
-    assert [p.name for p in (home.root / "models" / model_id).iterdir()] == ["000002"]
+    assert home.models.folder(model_id).name == "000002"
 
 
 def test_an_edit_that_fails_changes_nothing(home: Home) -> None:
     model_id = home.models.add("flat", {}, []).id
     home.publish(model_id)
 
-    def half(folder: Path) -> None:
+    def half(folder: Path) -> str:
         (folder / "topology.json").write_text("{")
         raise NotFound("node", "x")
 
@@ -105,14 +112,36 @@ def test_an_edit_that_fails_changes_nothing(home: Home) -> None:
     assert facts_of(home.models.folder(model_id))["nodes"] == 1
 
 
-def test_a_crash_between_the_two_steps_of_an_edit_keeps_the_newer_revision(home: Home) -> None:
+def test_a_crash_before_an_edit_is_whole_leaves_the_model_as_it_was(home: Home) -> None:
     model_id = home.models.add("flat", {}, []).id
     home.publish(model_id)
     write_folder(home.root / "models" / model_id / "000002", "kitchen")
     home.crash()
     model = home.models.get(model_id)
-    assert (model.revision, model.labels, model.status) == (2, ("kitchen",), Status.DONE)
-    assert [p.name for p in (home.root / "models" / model_id).iterdir()] == ["000002"]
+    assert (model.revision, model.labels, model.status) == (1, (), Status.DONE)
+    assert revisions_of(home, model_id) == ["000001"]
+    assert home.models.edit(model_id, relabel("hall")).labels == ("hall",)
+
+
+def test_a_crash_before_the_index_hears_of_an_edit_keeps_the_edit(home: Home) -> None:
+    model_id = home.models.add("flat", {}, []).id
+    home.publish(model_id)
+    files = ModelFiles(home.folder)
+    history = files.history(model_id)
+    assert history is not None
+    files.edit(model_id, history, relabel("kitchen"))
+    home.crash()
+    model = home.models.get(model_id)
+    assert (model.revision, model.labels) == (2, ("kitchen",))
+    assert home.models.undo(model_id).labels == ()
+
+
+def test_a_model_of_an_earlier_version_begins_a_history(home: Home) -> None:
+    model_id = home.models.add("flat", {}, []).id
+    home.publish(model_id)
+    (home.root / "models" / model_id / HISTORY_FILE).unlink()
+    home.crash()
+    assert home.models.edit(model_id, relabel("hall")).revision == 2
 
 
 def test_after_a_crash_what_was_being_made_has_failed(home: Home) -> None:
