@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -23,6 +24,12 @@ def skip_or_fail(reason: str) -> None:
     if os.environ.get("CI"):
         pytest.fail(reason)
     pytest.skip(reason)
+
+
+@pytest.fixture(scope="session")
+def need() -> Callable[[str], None]:
+    """`skip_or_fail`, for test folders, which cannot import this file."""
+    return skip_or_fail
 
 
 @pytest.fixture(scope="session")

@@ -12,10 +12,11 @@ class _Message(BaseModel):
 
 
 class Select(_Message):
-    """Page -> view: mark this node (null: none)."""
+    """Page -> view: mark this node (null: none), and others beside it."""
 
     type: Literal["select"]
     node: str | None = Field(max_length=200)
+    others: tuple[Annotated[str, Field(max_length=200)], ...] = Field((), max_length=1000)
 
 
 class Layers(_Message):

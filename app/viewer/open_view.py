@@ -106,6 +106,7 @@ class OpenView:
 
     async def _show(self, model: Model) -> None:
         same = _same_drawing(self.model, model)
+        regrouped = self.model.topology.rooms != model.topology.rooms
         self.model = model
         if same:
             self.drawing = relabelled(self.drawing, self.labels())
@@ -120,7 +121,7 @@ class OpenView:
         for tab in self.tabs.values():
             tab.redraw(self.drawing)
             tab.tell(news)
-            if not same:
+            if not same or regrouped:
                 tab.tell(ModelChanged())
 
     def _place_first_camera(self) -> None:

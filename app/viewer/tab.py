@@ -52,6 +52,7 @@ class TabState:
     """What a tab shows; it outlives a lost connection."""
 
     selected: str | None = None
+    others: tuple[str, ...] = ()
     layers: dict[str, bool] = field(default_factory=lambda: dict(DEFAULT_LAYERS))
     theme: str = "light"
     view: str = "3d"
@@ -100,7 +101,7 @@ class Tab:
         self.scene = TabScene(client, drawing)
         self.scene.wear(state.theme)
         self.scene.layers.show(state.layers)
-        self.scene.select(state.selected)
+        self.scene.select(state.selected, state.others)
         self.scene.measure(state.points)
         if state.camera is None:
             self._stand_at_standard(self.scene)
@@ -122,18 +123,18 @@ class Tab:
         """The shared scene has been drawn anew."""
         known = {node.id for node in drawing.nodes}
         if self.state.selected is not None and self.state.selected not in known:
-            self.state.selected = None
+            self.state.selected, self.state.others = None, ()
             self.tell(Selected(node=None))
         if self.scene is not None:
             self.scene.redraw(drawing)
-            self.scene.select(self.state.selected)
+            self.scene.select(self.state.selected, self.state.others)
             self.camera_moved()
 
     def handle(self, message: FromPage) -> None:
         """Does what the page asks."""
         match message:
             case Select():
-                self._select(message.node)
+                self._select(message.node, message.others)
             case Layers():
                 self._show(message.layers)
             case Camera():
@@ -173,10 +174,10 @@ class Tab:
         if self.mailbox is not None:
             self.mailbox.close()
 
-    def _select(self, node: str | None) -> None:
-        self.state.selected = node
+    def _select(self, node: str | None, others: tuple[str, ...] = ()) -> None:
+        self.state.selected, self.state.others = node, others
         if self.scene is not None:
-            self.scene.select(node)
+            self.scene.select(node, others)
             self.camera_moved()
 
     def _show(self, layers: dict[str, bool]) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 import viser
@@ -61,24 +61,16 @@ class TabScene:
         self.layers.wear(theme)
         self._sky.intensity, self._sun.intensity = LIGHTS[theme]
 
-    def select(self, node_id: str | None) -> None:
-        """Marks a node: a line around its region and a ring around its sphere."""
-        node = next((node for node in self.drawing.nodes if node.id == node_id), None)
-        if node is None:
+    def select(self, node_id: str | None, others: Collection[str] = ()) -> None:
+        """Marks nodes: a line around each one's region and a ring around its sphere."""
+        nodes = [node for node in self.drawing.nodes if node.id == node_id or node.id in others]
+        if not nodes:
             self._canvas.remove("/selection")
             return
-        self._canvas.lines(
-            "/selection/outline",
-            region_outline(self.drawing, node.region, OUTLINE_HEIGHT),
-            SELECTED,
-            OUTLINE_WIDTH,
-        )
-        self._canvas.lines(
-            "/selection/ring",
-            circle(node.centre, node.radius * RING_SHARE),
-            SELECTED,
-            RING_WIDTH,
-        )
+        outlines = [region_outline(self.drawing, node.region, OUTLINE_HEIGHT) for node in nodes]
+        rings = [circle(node.centre, node.radius * RING_SHARE) for node in nodes]
+        self._canvas.lines("/selection/outline", np.concatenate(outlines), SELECTED, OUTLINE_WIDTH)
+        self._canvas.lines("/selection/ring", np.concatenate(rings), SELECTED, RING_WIDTH)
 
     def measure(self, points: Sequence[tuple[float, float]]) -> None:
         """Shows none, one or two measured points, the latter with their distance."""

@@ -2,6 +2,7 @@
 import { api } from "./api.js";
 import { confirmDialog } from "./dialogs.js";
 import { askRing } from "./panels/ring_dialog.js";
+import { announce } from "./panels/edit_actions.js";
 import { ended, followJob } from "./jobs.js";
 import { go, link } from "./router.js";
 import { get, set } from "./store.js";
@@ -98,6 +99,7 @@ export async function labelNode(node, label) {
   try {
     const answer = await api.labelNode(model.id, node, label || null);
     if (get().model?.id === model.id) set({ model: answer });
+    announce(answer);
     refreshLists();
   } catch (error) {
     if (get().model?.id === model.id) set({ model: { ...get().model, nodes: before } });

@@ -48,6 +48,9 @@ export const api = {
   renameModel: (model, name) => request("PATCH", `api/models/${id(model)}`, { name }),
   deleteModel: (model) => request("DELETE", `api/models/${id(model)}`),
   labelNode: (model, node, label) => request("PATCH", `api/models/${id(model)}/nodes/${id(node)}`, { label }),
+  edit: (model, change) => request("POST", `api/models/${id(model)}/edits`, change),
+  undo: (model, revision) => request("POST", `api/models/${id(model)}/undo`, { revision: revision ?? null }),
+  redo: (model) => request("POST", `api/models/${id(model)}/redo`),
   job: (job) => request("GET", `api/jobs/${id(job)}`),
   cancelJob: (job) => request("DELETE", `api/jobs/${id(job)}`),
 };

@@ -1,6 +1,8 @@
 // Puts the page together.
 import { refreshLists, reloadModel, showRoute, takeLabels, upload } from "./actions.js";
 import { details } from "./panels/details.js";
+import { redo, undo } from "./panels/edit_actions.js";
+import { startCut, stopCut } from "./panels/edit_cut.js";
 import { layers } from "./panels/layers.js";
 import { chooseFiles, library } from "./panels/library.js";
 import { renameSelected } from "./panels/node_table.js";
@@ -43,12 +45,19 @@ shortcut("2", "top view", () => moveCamera("top"));
 shortcut("f", "show everything", () => moveCamera("fit"));
 shortcut("m", "measure a distance", () => measure(!get().measuring));
 shortcut("r", "rename the selected room", renameSelected);
+shortcut("s", "split the selected room", () => get().selected && startCut(get().selected));
+shortcut("Ctrl+z", "undo the last edit", () => undo());
+shortcut("Ctrl+Shift+z", "redo it", redo);
 shortcut("p", "save a picture", screenshot);
 shortcut("t", "light or dark", toggleTheme);
 shortcut("[", "hide or show the left column", toggleSide("left"));
 shortcut("]", "hide or show the right column", toggleSide("right"));
 shortcut("?", "this help", helpDialog);
-shortcut("Escape", "end measuring, select nothing", () => (get().measuring ? measure(false) : select(null)));
+shortcut("Escape", "end measuring, select nothing", () => {
+  if (get().cutting) stopCut();
+  else if (get().measuring) measure(false);
+  else select(null);
+});
 startShortcuts();
 
 acceptDrops(upload);

@@ -15,14 +15,20 @@ export function startShortcuts() {
 }
 
 /** Runs the shortcut of a key event (or of one that the 3D view reports); true if there is one. */
-export function press({ key, ctrlKey, metaKey, altKey, target }) {
-  if (ctrlKey || metaKey || altKey || document.querySelector("dialog[open]")) return false;
+export function press({ key, ctrlKey, metaKey, altKey, shiftKey, target }) {
+  if (altKey || document.querySelector("dialog[open]")) return false;
   const typing = target instanceof Element && target.closest("input:not([type=checkbox]):not([type=radio]), textarea, select");
   if (typing) return false;
-  const found = shortcuts.get(key.length === 1 ? key.toLowerCase() : key);
+  const found = shortcuts.get(nameOf(key, ctrlKey || metaKey, shiftKey));
   if (!found) return false;
   found.run();
   return true;
+}
+
+/** "z", "Ctrl+z" or "Ctrl+Shift+z" (Ctrl is Cmd on a Mac); without Ctrl, Shift is part of the key. */
+function nameOf(key, ctrl, shift) {
+  const plain = key.length === 1 ? key.toLowerCase() : key;
+  return ctrl ? `Ctrl+${shift ? "Shift+" : ""}${plain}` : plain;
 }
 
 export function helpDialog() {
@@ -38,7 +44,7 @@ export function helpDialog() {
     )),
     h("section", {}, h("h3", {}, "Keys"),
       h("table", { class: "keys" }, h("tbody", {},
-        [...shortcuts].map(([key, { text }]) => row(KEY_NAMES[key] ?? key.toUpperCase(), text)),
+        [...shortcuts].map(([key, { text }]) => row(KEY_NAMES[key] ?? (key.length === 1 ? key.toUpperCase() : key), text)),
         row("W A S D", "move the camera (in the 3D view)"),
         row("← ↑ → ↓", "turn the camera (in the 3D view)"),
       )),
@@ -47,4 +53,4 @@ export function helpDialog() {
   ), { wide: true });
 }
 
-const KEY_NAMES = { Escape: "Esc" };
+const KEY_NAMES = { Escape: "Esc", "Ctrl+z": "Ctrl Z", "Ctrl+Shift+z": "Ctrl ⇧ Z" };

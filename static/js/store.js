@@ -8,6 +8,8 @@ const state = {
   model: null, // detail of the model that is shown
   job: null, // the job that makes the shown model
   selected: null, // node id
+  picked: [], // ids of nodes selected beside it
+  cutting: null, // id of the node that is being split
   layers: {}, // name -> shown, as the 3D view says
   colours: {}, // node id -> #rrggbb
   view: "3d",

@@ -8,6 +8,8 @@ import { onTheme, theme } from "./theme.js";
 const TAB_KEY = "echorooms.tab";
 const RETRY_MS = [500, 1000, 2000, 4000, 8000];
 const NO_SUCH_MODEL = 4404;
+/** `?fixedDpr=0.5` in the page's address makes the 3D view coarser, for slow machines. */
+const SHARPNESS = /^\?fixedDpr=[\d.]+$/.test(location.search) ? location.search : "";
 
 let current = null; // {model, socket, frame, tries, timer}
 const handlers = {};
@@ -24,7 +26,7 @@ export function openView(model, frameBox) {
   const frame = h("iframe", {
     class: "view3d",
     title: "3D view of the map",
-    src: `view/${encodeURIComponent(model)}/tab/${tabToken()}/`,
+    src: `view/${encodeURIComponent(model)}/tab/${tabToken()}/${SHARPNESS}`,
   });
   frame.addEventListener("load", sendTheme);
   current = { model, frame, socket: null, tries: 0, timer: null };
@@ -43,8 +45,10 @@ export function closeView() {
   set({ connection: "none", selected: null, measuring: false, measured: null });
 }
 
+/** The canvas that the scene is drawn on; viser has another, empty one for selecting rectangles. */
 export function frameCanvas() {
-  return current?.frame.contentDocument?.querySelector("canvas") ?? null;
+  const canvases = current?.frame.contentDocument?.querySelectorAll("canvas") ?? [];
+  return [...canvases].find((canvas) => canvas.width > 0) ?? null;
 }
 
 export function focusView() {
@@ -55,9 +59,10 @@ function tell(message) {
   if (current?.socket?.readyState === WebSocket.OPEN) current.socket.send(JSON.stringify(message));
 }
 
-export function select(node) {
-  set({ selected: node });
-  tell({ type: "select", node });
+/** Selects a node, and others beside it. */
+export function select(node, picked = []) {
+  set({ selected: node, picked });
+  tell({ type: "select", node, others: picked });
 }
 
 export function showLayer(name, shown) {
@@ -99,14 +104,14 @@ function connect(view) {
 function hear(message) {
   switch (message.type) {
     case "hello":
-      set({ layers: message.layers, colours: message.colours, selected: message.selected });
+      set({ layers: message.layers, colours: message.colours, selected: message.selected, picked: [] });
       handlers.onLabels?.(message.labels);
       break;
     case "ready":
       set({ connection: message.connected ? "ready" : get().connection === "ready" ? "lost" : "connecting" });
       break;
     case "selected":
-      set({ selected: message.node });
+      set({ selected: message.node, picked: [] });
       handlers.onSelected?.(message.node);
       break;
     case "labels":
@@ -161,7 +166,7 @@ addEventListener("resize", () => sendHeight());
 addEventListener("message", (event) => {
   if (event.origin !== location.origin || event.source !== current?.frame.contentWindow) return;
   if (event.data?.type === "key") {
-    press({ key: String(event.data.key), ctrlKey: event.data.ctrl, metaKey: event.data.meta, altKey: event.data.alt, target: null });
+    press({ key: String(event.data.key), ctrlKey: event.data.ctrl, metaKey: event.data.meta, altKey: event.data.alt, shiftKey: event.data.shift, target: null });
   }
 });
 onTheme((chosen) => {

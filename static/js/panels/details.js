@@ -1,6 +1,7 @@
 // The right column: the rooms of a model, or the form that makes one from a log.
 import { h, replace } from "../dom.js";
 import { get, watch } from "../store.js";
+import { editHistory } from "./edit_history.js";
 import { modelFacts } from "./model_facts.js";
 import { modellingForm } from "./modelling_form.js";
 import { nodeTable } from "./node_table.js";
@@ -8,12 +9,15 @@ import { selection } from "./selection.js";
 
 export function details(root) {
   const table = h("section", {});
+  const history = h("div", { class: "edit-history", role: "group", "aria-label": "Undo and redo" });
   const chosen = h("section", { class: "selection", "aria-live": "polite" });
   const facts = h("section", {});
   const rooms = h("div", { class: "stack" }, table, chosen, facts);
   const form = h("div", { class: "stack" });
   replace(root, rooms, form);
   nodeTable(table);
+  table.querySelector("h2").append(history);
+  editHistory(history);
   selection(chosen);
   modelFacts(facts);
   watch(["route", "log", "model"], () => {

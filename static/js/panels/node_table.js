@@ -4,12 +4,13 @@ import { labelNode } from "../actions.js";
 import { area, nodeName } from "../format.js";
 import { get, watch } from "../store.js";
 import { select } from "../view3d.js";
+import { choose, isChoosing } from "./edit_selection.js";
 
 export function nodeTable(root) {
   const body = h("tbody", {});
   const rows = new Map();
   replace(root,
-    h("h2", {}, "Rooms", h("small", {}, "click to select, type to rename")),
+    h("h2", {}, "Rooms", h("small", {}, "click to select, Ctrl adds")),
     h("table", { class: "nodes" },
       h("thead", {}, h("tr", {},
         h("th", { scope: "col" }, h("span", { class: "unseen" }, "Colour")), h("th", { scope: "col" }, "name"),
@@ -17,7 +18,7 @@ export function nodeTable(root) {
         h("th", { scope: "col", class: "num", title: "share of pairs of points that do not see each other; 0 is convex" }, "hidden"),
       )), body),
   );
-  watch(["model", "colours", "selected"], ({ model, colours, selected }) => {
+  watch(["model", "colours", "selected", "picked"], ({ model, colours, selected, picked }) => {
     const nodes = model?.nodes ?? [];
     const ids = nodes.map((node) => node.id).join("\n");
     if (body.dataset.ids !== ids) {
@@ -26,7 +27,7 @@ export function nodeTable(root) {
       for (const node of nodes) rows.set(node.id, row(node.id));
       replace(body, nodes.map((node) => rows.get(node.id).element));
     }
-    for (const node of nodes) rows.get(node.id).update(node, doors(model, node.id), colours[node.id], node.id === selected);
+    for (const node of nodes) rows.get(node.id).update(node, doors(model, node.id), colours[node.id], node.id === selected || picked.includes(node.id));
   });
 }
 
@@ -43,7 +44,7 @@ function row(id) {
   const swatch = h("span", { class: "swatch" });
   const input = h("input", { class: "node-name", maxlength: 80, autocomplete: "off", spellcheck: false });
   const cells = [0, 1, 2].map(() => h("td", { class: "num" }));
-  const element = h("tr", { dataset: { node: id }, onclick: () => select(id) },
+  const element = h("tr", { dataset: { node: id }, onclick: (event) => choose(id, event), onmousedown: (event) => isChoosing(event) && event.preventDefault() },
     h("td", {}, swatch), h("td", { class: "name-cell" }, input), cells);
   let saved = "";
   const commit = () => {

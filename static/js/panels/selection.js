@@ -3,12 +3,20 @@ import { h, replace } from "../dom.js";
 import { area, metres, nodeName } from "../format.js";
 import { watch } from "../store.js";
 import { select } from "../view3d.js";
+import { chosenNodes } from "./edit_selection.js";
+import { groupTools, nodeTools } from "./edit_tools.js";
 
 export function selection(root) {
-  watch(["model", "selected", "colours"], ({ model, selected, colours }) => {
+  watch(["model", "selected", "picked", "colours", "cutting"], (state) => {
+    const { model, selected, colours, cutting } = state;
+    const group = chosenNodes(state);
     const node = model?.nodes?.find((item) => item.id === selected);
     if (!node) {
       replace(root, h("p", { class: "nothing" }, model?.nodes?.length ? "Click a room in the map or in the table." : null));
+      return;
+    }
+    if (group.length > 1) {
+      replace(root, ...several(group, colours));
       return;
     }
     replace(root,
@@ -20,9 +28,20 @@ export function selection(root) {
         fact("Hidden pairs", node.convexity.toFixed(2), "share of pairs of points in it that do not see each other; 0 is convex"),
         ...room(model, node),
       ),
+      nodeTools(model, node, cutting),
       ways(model, node),
     );
   });
+}
+
+function several(nodes, colours) {
+  const floor = nodes.reduce((sum, node) => sum + node.area_m2, 0);
+  return [
+    h("h2", {}, `${nodes.length} selected`),
+    nodes.map((node) => h("p", { class: "picked" }, h("span", { class: "swatch", style: { background: colours[node.id] ?? "" } }), nodeName(node))),
+    h("dl", { class: "facts" }, fact("Floor", `${area(floor)} m²`)),
+    groupTools(nodes),
+  ];
 }
 
 function fact(name, value, tip) {

@@ -2,6 +2,7 @@
 import { h, replace } from "../dom.js";
 import { get, watch } from "../store.js";
 import { closeView, openView } from "../view3d.js";
+import { cutStrip } from "./edit_cut.js";
 import { failedCard, jobCard } from "./job_card.js";
 import { logReport } from "./log_report.js";
 import { viewOverlay } from "./view_overlay.js";
@@ -12,6 +13,7 @@ export function stage(root) {
   const view = h("div", { class: "view" });
   replace(root, page, view);
   viewOverlay(view);
+  cutStrip(view);
   watch(["route", "log", "model", "job", "logs", "models"], () => {
     const content = choose(get());
     const shows3d = content === "3d";

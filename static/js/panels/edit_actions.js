@@ -1,0 +1,51 @@
+// Edits of nodes: each is sent, shown, and can be taken back from its message.
+import { api } from "../api.js";
+import { refreshLists } from "../actions.js";
+import { get, set } from "../store.js";
+import { attempt, toast } from "../toasts.js";
+import { select } from "../view3d.js";
+
+/** Sends an edit of the shown model; true when it was made. */
+export async function edit(change, picks = (model, before) => get().selected) {
+  const before = get().model;
+  const answer = await attempt(() => api.edit(before.id, change));
+  if (!answer) return false;
+  take(answer);
+  const node = picks(answer, before);
+  if (get().model?.id === answer.id && node !== get().selected) select(node);
+  announce(answer);
+  return true;
+}
+
+/** Says what the last edit was, with a way back as long as nothing else has happened. */
+export function announce(model) {
+  const text = sentence(model.last_edit);
+  if (text) toast(text, { action: { label: "Undo", run: () => undo(model.revision) } });
+}
+
+export function undo(revision) {
+  return turn((model) => model.can_undo, (model) => api.undo(model.id, revision), (before) => `Undone: ${before.last_edit}.`);
+}
+
+export function redo() {
+  return turn((model) => model.can_redo, (model) => api.redo(model.id), (before) => `Done again: ${before.undone_edit}.`);
+}
+
+async function turn(possible, send, words) {
+  const before = get().model;
+  if (!before || (before.nodes && !possible(before))) return;
+  const answer = await attempt(() => send(before));
+  if (!answer) return;
+  take(answer);
+  if (get().selected && !answer.nodes.some((node) => node.id === get().selected)) select(null);
+  toast(words(before));
+}
+
+function take(answer) {
+  if (get().model?.id === answer.id) set({ model: answer });
+  refreshLists();
+}
+
+export function sentence(words) {
+  return words ? `${words[0].toUpperCase()}${words.slice(1)}.` : "";
+}
