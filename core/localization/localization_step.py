@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
-
-import numpy as np
 
 from core.geometry import FloatArray
 
@@ -82,19 +79,6 @@ class LocalizationStep:
             "template": [_rounded(point) for point in self.template],
             "why": self.why,
         }
-
-
-def entropy_of(probabilities: FloatArray) -> float:
-    """H(P) of eq. (21): entropy to the base n of n probabilities (N,); 0 = certain, 1 = no idea.
-
-    Zero probabilities count nothing; a single node is always certain.
-    """
-    p = np.asarray(probabilities, float)
-    n = len(p)
-    if n < 2:
-        return 0.0
-    p = p[p > 0]
-    return float(np.clip(-(p * np.log(p)).sum() / math.log(n), 0.0, 1.0))  # eq. (21)
 
 
 def _rounded(values: FloatArray) -> list[float]:

@@ -15,9 +15,11 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from core.geometry import FloatArray
+from core.localization.entropy_test import entropy_of
+from core.localization.evidence import EvidenceConfig, evidence_of
 from core.localization.expected_range import ExpectedRangeConfig
 from core.localization.explanation import explain
-from core.localization.localization_step import Candidate, LocalizationStep, entropy_of
+from core.localization.localization_step import Candidate, LocalizationStep
 from core.localization.node_belief import NodeBeliefConfig, best_poses, node_probabilities
 from core.localization.place_map import PlaceMap, place_map, sonar_tables
 from core.localization.pose_grid import PoseBelief
@@ -51,6 +53,7 @@ class PoseGridConfig:
     segment: SegmentConfig = field(default_factory=SegmentConfig)
     motion: PoseMotionConfig = field(default_factory=PoseMotionConfig)
     observation: ObservationConfig = field(default_factory=ObservationConfig)
+    evidence: EvidenceConfig = field(default_factory=EvidenceConfig)
     nodes: NodeBeliefConfig = field(default_factory=NodeBeliefConfig)
     fit: FitConfig = field(default_factory=FitConfig)
 
@@ -108,12 +111,16 @@ class PoseGridLocalizer:
         """The belief after the readings of a segment (eq. 16 over poses)."""
         if len(segment) == 0:
             return prior
-        score = self.scores(prior, segment)
-        temper = self.config.observation.temper
-        unknown = temper * self.config.unknown_fit * self.best_possible(segment)
-        highest = max(temper * float(score.max()), unknown)
-        mass = prior.mass * np.exp(temper * score - np.float32(highest))
-        outside = prior.unknown * math.exp(unknown - highest)
+        possible = self.best_possible(segment)
+        score, outside = evidence_of(
+            self.scores(prior, segment),
+            self.places.blocks,
+            self.config.unknown_fit * possible,
+            possible,
+            self.config.evidence,
+        )
+        mass = prior.mass * np.exp(score)
+        outside = prior.unknown * math.exp(outside)
         total = float(mass.sum(dtype=np.float64)) + outside
         if not total > 0 or not math.isfinite(total):
             return prior

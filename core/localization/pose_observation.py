@@ -37,12 +37,11 @@ FAINT = 1e-30
 
 @dataclass(frozen=True)
 class ObservationConfig:
-    """How readings count. Chosen on simulated homes for calibrated probabilities.
+    """What is scored in full.
 
     Attributes:
-        temper: exponent of the likelihood. Readings a few centimetres apart see the same surface and
-            the same error of the map, so they count for far less than as many independent ones.
-        in_play: blocks whose tempered coarse log-posterior is this far below the best are left out.
+        in_play: blocks whose coarse log-posterior is this far below the best are left out; scores
+            are tempered by `temper` for that.
         share: at most this share of the blocks is scored in full,
         at_least: but always this many may be.
     """

@@ -14,6 +14,8 @@ import numpy as np
 
 from core.errors import InputError
 from core.localization.localization_step import LocalizationStep
+from core.localization.monte_carlo import MonteCarloConfig, MonteCarloLocalizer
+from core.localization.paper_localizer import PaperLocalizer
 from core.localization.pose_grid_localizer import PoseGridLocalizer
 from core.progress import Progress, no_progress
 from core.sensing import RobotLog, Scan, SonarRing
@@ -154,6 +156,9 @@ def _log_of(scans: tuple[Scan, ...], ring: SonarRing) -> RobotLog:
 
 
 def _method(model: Model, ring: SonarRing, options: LocalizationOptions) -> StepMethod:
-    if options.method == "default":
-        return PoseGridLocalizer(model, ring)
-    raise InputError(f"localization method {options.method!r} is not there yet: choose default")
+    if options.method == "paper":
+        return PaperLocalizer(model)
+    if options.method == "mcl":
+        config = MonteCarloConfig(particles=options.particles)
+        return MonteCarloLocalizer(model, ring, config, options.seed)
+    return PoseGridLocalizer(model, ring)
