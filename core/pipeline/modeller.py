@@ -9,22 +9,29 @@ from typing import Any, Literal
 
 import numpy as np
 
-from core.errors import InputError, UsageError
-from core.geometry import BoolArray
+from core.errors import InputError, MapError, UsageError
 from core.mapping import OccupancyGrid
 from core.mapping.occupancy_grid import DEFAULT_RESOLUTION
 from core.pipeline.mapper import MappingMethod, MappingOptions, map_log
+from core.pipeline.region_finder import (
+    FoundRegions,
+    along_the_drive,
+    given_number,
+    large_parts,
+    number_found,
+)
 from core.progress import Progress, no_progress, part_of
 from core.segmentation.connected import largest_component
-from core.segmentation.offline import OfflineConfig, segment_offline
 from core.sensing import RobotLog, Trajectory
 from core.topology import Model
 from core.topology.labels import carried_labels, room_image
 from core.topology.topology_of import topology_of
 
 Mode = Literal["autonomous", "offline"]
-MAPPING_SHARE = 0.7
-"""Share of the time that goes into the map, for the progress."""
+MAPPING_SHARE, CUTTING_SHARE = 0.3, 0.95
+"""Shares of the time after which the map and the regions are there, for the progress."""
+SMALLEST_PART = 1.0
+"""Square metres of a separate part of an imported map that is modelled."""
 
 
 @dataclass(frozen=True)
@@ -82,20 +89,24 @@ def model_log(
     trajectory = Trajectory.from_odometry(log)
     mapping = MappingOptions(options.mapping, options.resolution)
     result = map_log(log, trajectory, mapping, part_of(progress, 0.0, MAPPING_SHARE))
-    cells = result.grid.geometry.cell_of(trajectory.poses[:, :2])
-    floor = largest_component(result.grid.free, cells[result.grid.geometry.contains(cells)])
-    provenance = {
-        "inputs": [
-            {
-                "log": log.name,
-                "scans": len(log),
-                "duration_s": round(log.duration_s, 3),
-                "distance_m": round(log.distance_m, 3),
-            }
-        ],
-        "mapping": mapping.parameters(),
+    grid, rest = result.grid, part_of(progress, MAPPING_SHARE, CUTTING_SHARE)
+    cells = grid.geometry.cell_of(trajectory.poses[:, :2])
+    floor = largest_component(grid.free, cells[grid.geometry.contains(cells)])
+    if options.regions is not None:
+        found = given_number(grid, floor, options.regions, options.seed, rest)
+    elif options.mode == "offline":
+        found = number_found(grid, floor, options.seed, rest)
+    else:
+        found = along_the_drive(log, trajectory, grid, floor, mapping, rest)
+    source = {
+        "log": log.name,
+        "scans": len(log),
+        "duration_s": round(log.duration_s, 3),
+        "distance_m": round(log.distance_m, 3),
     }
-    return _model(result.grid, floor, trajectory, options, provenance, progress, previous)
+    provenance = {"inputs": [source], "mapping": mapping.parameters()}
+    progress(CUTTING_SHARE, "finding doorways")
+    return _model(grid, found, trajectory, options, provenance, previous)
 
 
 def model_map(
@@ -113,44 +124,50 @@ def model_map(
     options = options or ModellingOptions(mode="offline")
     if options.mode == "autonomous":
         raise UsageError("autonomous modelling needs a log: a map tells nothing of the drive")
+    if not grid.free.any():
+        raise MapError("the map has no free space to divide")
+    cutting = part_of(progress, 0.0, CUTTING_SHARE)
+    if options.regions is not None:
+        floor = largest_component(grid.free)
+        found = given_number(grid, floor, options.regions, options.seed, cutting)
+    else:
+        floor = large_parts(grid.free, round(SMALLEST_PART / grid.geometry.cell_area))
+        floor = floor if floor.any() else largest_component(grid.free)
+        found = number_found(grid, floor, options.seed, cutting)
     provenance = {"inputs": [{"map": list(grid.geometry.shape)}]}
-    floor = largest_component(grid.free)
-    return _model(grid, floor, None, options, provenance, progress, previous)
+    progress(CUTTING_SHARE, "finding doorways")
+    return _model(grid, found, None, options, provenance, previous)
 
 
 def _model(
     grid: OccupancyGrid,
-    floor: BoolArray,
+    found: FoundRegions,
     trajectory: Trajectory | None,
     options: ModellingOptions,
     provenance: dict[str, Any],
-    progress: Progress,
     previous: Model | None,
 ) -> Model:
-    if options.regions is None:
-        raise UsageError("finding the number of regions is not there yet: give --regions K")
-    progress(MAPPING_SHARE, "cutting free space into regions")
-    config = OfflineConfig()
-    regions = segment_offline(floor, options.regions, options.seed, config)
-    progress(0.9, "finding doorways")
     labels = (
         carried_labels(
-            previous.topology, previous.regions, previous.grid.geometry, regions, grid.geometry
+            previous.topology,
+            previous.regions,
+            previous.grid.geometry,
+            found.regions,
+            grid.geometry,
         )
         if previous
         else {}
     )
-    topology = topology_of(grid, regions, labels=labels)
+    topology = topology_of(
+        grid, found.regions, found.rooms, labels, found.node_ids, found.next_number
+    )
     provenance |= {
         "options": asdict(options),
-        "segmentation": asdict(config),
+        "segmentation": found.parameters,
         "versions": _versions(),
     }
-    progress(1.0, "done")
-    history = ({"event": "offline", "regions": options.regions, "seed": options.seed},)
-    return Model(
-        grid, regions, room_image(regions, topology), topology, trajectory, provenance, history
-    )
+    rooms = room_image(found.regions, topology)
+    return Model(grid, found.regions, rooms, topology, trajectory, provenance, found.history)
 
 
 def _versions() -> dict[str, str]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core.errors import InputError
-from core.geometry import BoolArray, FloatArray, travelled
+from core.geometry import BoolArray, FloatArray, IntArray, travelled
 from core.sensing.ring import SonarRing
 
 
@@ -69,7 +69,10 @@ class RobotLog:
 
     def slice(self, start: int, stop: int) -> RobotLog:
         """The scans `start`..`stop` (half-open)."""
-        part = slice(start, stop)
+        return self.taken(np.arange(len(self))[start:stop])
+
+    def taken(self, part: IntArray) -> RobotLog:
+        """The scans with the given indices."""
         return replace(
             self,
             t=self.t[part],

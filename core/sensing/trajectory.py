@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from core.errors import InputError
-from core.geometry import FloatArray
+from core.geometry import FloatArray, IntArray
 from core.sensing.robot_log import RobotLog
 
 HEADER = ("t", "x", "y", "heading", "sigma_xy", "sigma_heading")
@@ -43,6 +43,12 @@ class Trajectory:
     def from_odometry(cls, log: RobotLog) -> Trajectory:
         """The odometry as it is in the log."""
         return cls.at(log.t, log.odometry)
+
+    def taken(self, part: IntArray) -> Trajectory:
+        """The poses with the given indices."""
+        return Trajectory(
+            self.t[part], self.poses[part], self.sigma_xy[part], self.sigma_heading[part]
+        )
 
     def write_csv(self, path: Path) -> None:
         """Writes `t,x,y,heading,sigma_xy,sigma_heading`, one row per scan."""

@@ -13,6 +13,8 @@ from core.mapping import GridGeometry
 
 BRIDGE = 2
 """Grids that may part two contact points of one stretch."""
+PASSABLE = 0.3
+"""Metres; a narrower stretch is a hole in a sonar map's wall rather than a doorway."""
 
 
 @dataclass(frozen=True)
@@ -26,7 +28,7 @@ class Contact:
 
 
 def contacts(regions: IntArray, geometry: GridGeometry) -> tuple[Contact, ...]:
-    """All stretches of contact, one per pair of regions and place.
+    """The stretches of contact that one can pass, one per pair of regions and place.
 
     Args:
         regions: (rows, cols) label image, 0 = none.
@@ -42,7 +44,25 @@ def contacts(regions: IntArray, geometry: GridGeometry) -> tuple[Contact, ...]:
             extent = float(pdist(stretch).max()) if len(stretch) > 1 else 0.0
             width = (extent + 1) * geometry.resolution
             found.append(Contact(int(pair[0]), int(pair[1]), (float(x), float(y)), width))
-    return tuple(found)
+    return _passable(tuple(found))
+
+
+def _passable(found: tuple[Contact, ...]) -> tuple[Contact, ...]:
+    """The stretches that one can pass, and narrower ones only where nothing else joins two parts."""
+    parent = {value: value for contact in found for value in (contact.low, contact.high)}
+
+    def root(value: int) -> int:
+        while parent[value] != value:
+            value = parent[value]
+        return value
+
+    kept = set()
+    for i in sorted(range(len(found)), key=lambda i: -found[i].width_m):
+        low, high = root(found[i].low), root(found[i].high)
+        if found[i].width_m >= PASSABLE or low != high:
+            kept.add(i)
+            parent[high] = low
+    return tuple(contact for i, contact in enumerate(found) if i in kept)
 
 
 def _contact_points(regions: IntArray) -> tuple[FloatArray, IntArray]:

@@ -18,7 +18,7 @@ def two_doors() -> np.ndarray:
     regions[:, 11:] = 2
     regions[:, 10] = 0
     regions[2:6, 10] = 1
-    regions[14:16, 10] = 1
+    regions[14:17, 10] = 1
     return regions
 
 
@@ -27,7 +27,7 @@ def test_two_regions_with_two_doorways_have_two_edges() -> None:
     topology = topology_of(home(regions), regions)
     assert [node.region for node in topology.nodes] == [1, 2]
     widths = sorted(edge.width_m for edge in topology.edges)
-    assert widths == pytest.approx([0.2, 0.4])
+    assert widths == pytest.approx([0.3, 0.4])
     for edge in topology.edges:
         assert edge.doorway[0] == pytest.approx(2.1)
 
@@ -55,3 +55,12 @@ def test_suggested_rooms_group_nodes() -> None:
     topology = topology_of(home(regions), regions, rooms=np.where(regions > 0, 1, 0))
     assert len(topology.rooms) == 1
     assert set(topology.rooms[0].nodes) == {node.id for node in topology.nodes}
+
+
+def test_a_hole_in_a_wall_is_no_doorway_unless_nothing_else_joins() -> None:
+    regions = two_doors()
+    regions[10, 10] = 1
+    assert len(topology_of(home(regions), regions).edges) == 2
+    regions[:, 10] = 0
+    regions[10, 10] = 1
+    assert len(topology_of(home(regions), regions).edges) == 1

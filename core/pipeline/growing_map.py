@@ -1,0 +1,50 @@
+"""The map as it grows along a drive: what autonomous modelling looks at."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from core.geometry import IntArray, travelled, wrap_angle
+from core.mapping import OccupancyGrid
+from core.pipeline.mapper import MappingOptions, map_log
+from core.sensing import RobotLog, Trajectory
+
+KEY_DISTANCE, KEY_TURN = 0.12, 0.25
+"""Metres and radians between key scans. At 0.15 m/s and 4 Hz every third or fourth scan is one; a
+map of every fourth scan measured as good as one of all."""
+
+
+def stops_along(trajectory: Trajectory, step: float) -> IntArray:
+    """Indices of the scans at which the drive passes a multiple of `step` metres.
+
+    They depend on the distance from the start of the drive only, so that a drive in two logs, or
+    scan by scan, stops at the same places.
+    """
+    passed = np.floor(travelled(trajectory.poses) / step)
+    return np.flatnonzero(np.diff(passed) > 0).astype(np.int64) + 1
+
+
+def maps_along(
+    log: RobotLog, trajectory: Trajectory, options: MappingOptions, stops: IntArray
+) -> Iterator[tuple[int, OccupancyGrid]]:
+    """The map of the scans so far at each stop, made of key scans only."""
+    keys = key_scans(trajectory)
+    for stop in stops:
+        so_far = keys[keys <= stop]
+        yield int(stop), map_log(log.taken(so_far), trajectory.taken(so_far), options).grid
+
+
+def key_scans(trajectory: Trajectory) -> IntArray:
+    """Indices of scans that lie apart from the one before: a map needs no more."""
+    keys, last = [], None
+    for i, pose in enumerate(trajectory.poses):
+        if (
+            last is None
+            or np.hypot(*(pose[:2] - last[:2])) >= KEY_DISTANCE
+            or abs(float(wrap_angle(pose[2] - last[2]))) >= KEY_TURN
+        ):
+            keys.append(i)
+            last = pose
+    return np.array(keys, np.int64)
