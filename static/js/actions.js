@@ -140,6 +140,14 @@ export async function createModel(body) {
   go(link.model(id));
 }
 
+export async function addLog(model, log) {
+  await attempt(async () => {
+    await api.addLog(model.id, log);
+    await refreshLists();
+    await showRoute(get().route);
+  });
+}
+
 export async function cancelJob(id) {
   await attempt(() => api.cancelJob(id));
 }

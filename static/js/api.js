@@ -37,6 +37,13 @@ export function answer(status, text) {
 
 const id = encodeURIComponent;
 
+/** Addresses of files to take away, and of the picture of a model's grid. */
+export const files = {
+  log: (log) => `api/logs/${id(log)}/file`,
+  folder: (model) => `api/models/${id(model)}/folder.zip`,
+  grid: (model, revision) => `api/models/${id(model)}/grid.png?v=${revision}`,
+};
+
 export const api = {
   logs: () => request("GET", "api/logs"),
   log: (log) => request("GET", `api/logs/${id(log)}`),
@@ -51,6 +58,7 @@ export const api = {
   edit: (model, change) => request("POST", `api/models/${id(model)}/edits`, change),
   undo: (model, revision) => request("POST", `api/models/${id(model)}/undo`, { revision: revision ?? null }),
   redo: (model) => request("POST", `api/models/${id(model)}/redo`),
+  addLog: (model, log) => request("POST", `api/models/${id(model)}/logs`, { log_id: log }),
   job: (job) => request("GET", `api/jobs/${id(job)}`),
   cancelJob: (job) => request("DELETE", `api/jobs/${id(job)}`),
 };

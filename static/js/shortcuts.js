@@ -33,13 +33,13 @@ function nameOf(key, ctrl, shift) {
 
 export function helpDialog() {
   const row = (key, text) => h("tr", {}, h("th", { scope: "row" }, h("kbd", {}, key)), h("td", {}, text));
-  const page = (file, title, text) => h("li", {}, h("a", { href: `docs/${file}`, target: "_blank", rel: "noopener" }, title), h("span", {}, text));
+  const page = (name, title, text) => h("li", {}, h("a", { href: `docs/index.html#${name}`, target: "_blank", rel: "noopener" }, title), h("span", {}, text));
   return openDialog("Help", () => h("div", { class: "help" },
     h("section", {}, h("h3", {}, "Pages"), h("ul", { class: "help-pages" },
-      page("getting-started.html", "Getting started", "from a drive to named rooms"),
-      page("log-format.html", "Log format", "what a log looks like, line by line"),
-      page("log-yaml.html", "Other text files", "a log.yaml that describes them"),
-      page("api.html", "API by curl", "everything that this page does, from a script"),
+      page("getting-started", "Getting started", "from a drive to named rooms"),
+      page("rooms", "Map and rooms", "layers, camera, table, measuring"),
+      page("logs", "Log files", "the formats, line by line, and the log.yaml"),
+      page("api", "API by curl", "everything that this page does, from a script"),
       h("li", {}, h("a", { href: "docs", target: "_blank", rel: "noopener" }, "API reference"), h("span", {}, "every address and field")),
     )),
     h("section", {}, h("h3", {}, "Keys"),

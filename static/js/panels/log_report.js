@@ -1,4 +1,5 @@
 // What was found in a log, in plain sentences first and in figures below.
+import { files } from "../api.js";
 import { h, icon } from "../dom.js";
 import { bytes, count, duration, metres, percent, when } from "../format.js";
 
@@ -9,7 +10,7 @@ const LEAST_SCALE = 0.2;
 export function logReport(log) {
   const report = log.report;
   return h("article", { class: "report" },
-    h("header", {}, h("h2", {}, log.name), h("p", { class: "muted" }, `${FORMATS[report.format] ?? report.format}, ${bytes(log.size_bytes)}, uploaded ${when(log.created)}`)),
+    h("header", {}, h("h2", {}, log.name), h("p", { class: "muted" }, `${FORMATS[report.format] ?? report.format}, ${bytes(log.size_bytes)}, uploaded ${when(log.created)} · `, h("a", { href: files.log(log.id), download: "" }, "download"))),
     verdict(report),
     h("section", {}, h("h3", {}, "Figures"), figures(report)),
     h("section", {}, h("h3", {}, "Sonars"), sonars(report)),

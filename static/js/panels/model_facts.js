@@ -1,5 +1,7 @@
 // How the open model was made.
 import { h, replace } from "../dom.js";
+import { files } from "../api.js";
+import { addLog } from "../actions.js";
 import { bytes, count, when } from "../format.js";
 import { link } from "../router.js";
 import { watch } from "../store.js";
@@ -19,8 +21,20 @@ export function modelFacts(root) {
       fact("Log", model.log_ids.length ? model.log_ids.map((id) => h("a", { href: link.log(id) }, logs?.find((log) => log.id === id)?.name ?? id)) : "an imported map"),
       options.map(([key, name]) => fact(name, key === "resolution" ? `${(100 * model.options[key]).toFixed(1).replace(/\.0$/, "")} cm` : String(model.options[key]))),
       fact("On disk", bytes(model.size_bytes)),
-    )));
+    ),
+    h("p", {}, h("a", { class: "button", href: files.folder(model.id), download: "" }, "Download the model folder")),
+    model.log_ids.length > 0 && goOn(model, logs ?? []),
+    ));
   });
+}
+
+/** Another log of the same drive makes the map larger. */
+function goOn(model, logs) {
+  const others = logs.filter((log) => !model.log_ids.includes(log.id));
+  if (!others.length) return null;
+  const choice = h("select", { "aria-label": "Log" }, others.map((log) => h("option", { value: log.id }, log.name)));
+  return h("div", { class: "go-on" }, h("p", { class: "muted" }, "Go on with another log of the same drive:"), choice,
+    h("button", { type: "button", class: "button", onclick: () => addLog(model, choice.value) }, "Make it again with both"));
 }
 
 function fact(name, value) {

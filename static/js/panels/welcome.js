@@ -1,4 +1,5 @@
 // The first page: what to do next, from nothing at all to a model that waits to be opened.
+import { files } from "../api.js";
 import { h, icon } from "../dom.js";
 import { count, when } from "../format.js";
 import { link } from "../router.js";
@@ -13,7 +14,7 @@ export function welcome({ logs, models }) {
     !models.length && logs.length ? h("p", {}, h("a", { class: "button button-primary", href: link.log(logs[0].id) }, `Open “${logs[0].name}”`)) : null,
     !logs.length && h("button", { type: "button", class: "button button-primary button-large", onclick: chooseFiles }, icon("upload"), "Upload a log"),
     !models.length && steps(),
-    h("p", { class: "muted" }, "New here? ", h("a", { href: "docs/getting-started.html", target: "_blank", rel: "noopener" }, "Getting started"), " takes five minutes. Press ", h("kbd", {}, "?"), " for help and keys."),
+    h("p", { class: "muted" }, "New here? ", h("a", { href: "docs/index.html#getting-started", target: "_blank", rel: "noopener" }, "Getting started"), " takes five minutes. Press ", h("kbd", {}, "?"), " for help and keys."),
   );
 }
 
@@ -26,7 +27,7 @@ function lead(logs, models) {
 function recent(models) {
   return h("ul", { class: "recent" }, models.slice(0, 6).map((model) => h("li", {}, h("a", { href: link.model(model.id), class: "tile" },
     model.status === "done"
-      ? h("img", { src: `api/models/${encodeURIComponent(model.id)}/grid.png?v=${model.revision}`, alt: "", loading: "lazy" })
+      ? h("img", { src: files.grid(model.id, model.revision), alt: "", loading: "lazy" })
       : h("span", { class: "tile-blank" }, icon(model.status === "failed" ? "alert" : "map")),
     h("strong", {}, model.name),
     h("span", {}, model.status === "done" ? count(model.node_count, "region") : model.status, " · ", when(model.created)),
