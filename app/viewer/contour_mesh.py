@@ -12,6 +12,7 @@ from core.mapping.occupancy_grid import GridGeometry
 
 _TAUBIN = (0.5, -0.53)
 _SMOOTHING_ROUNDS = 12
+_FLAT = 1e-12
 
 
 @dataclass(frozen=True)
@@ -55,26 +56,35 @@ def extrude(field: FloatArray, level: float, height: float, geometry: GridGeomet
 
 
 class _Points:
-    """Numbering and positions of the lattice's corners and of the level's crossings of its edges."""
+    """Numbers and positions of the lattice's corners and of the level's crossings of its edges.
+
+    Corners come first, row by row, then the crossings of the edges along the rows, then of those
+    across. Positions are worked out only for the few that are used.
+    """
 
     def __init__(self, padded: FloatArray, level: float, geometry: GridGeometry) -> None:
-        rows, cols = padded.shape
-        self.corner = np.arange(rows * cols).reshape(rows, cols)
-        self.along = rows * cols + np.arange(rows * (cols - 1)).reshape(rows, cols - 1)
-        self.across = (
-            rows * cols + rows * (cols - 1) + np.arange((rows - 1) * cols).reshape(rows - 1, cols)
-        )
-        r, c = np.mgrid[0:rows, 0:cols].astype(float)
-        t = _crossing(padded[:, :-1], padded[:, 1:], level)
-        u = _crossing(padded[:-1], padded[1:], level)
-        cells = np.concatenate(
-            (
-                np.stack((r, c), -1).reshape(-1, 2),
-                np.stack((r[:, :-1], c[:, :-1] + t), -1).reshape(-1, 2),
-                np.stack((r[:-1] + u, c[:-1]), -1).reshape(-1, 2),
-            )
-        )
-        self.world = geometry.world_of(cells - 1.0)
+        self._padded, self._level, self._geometry = padded, level, geometry
+        self._rows, self._cols = padded.shape
+        self._first_along = self._rows * self._cols
+        self._first_across = self._first_along + self._rows * (self._cols - 1)
+        self._smooth_ids = np.zeros(0, np.int64)
+        self._smooth_world = np.zeros((0, 2))
+
+    def world_of(self, ids: IntArray) -> FloatArray:
+        """World (x, y) of ids (N,) in ascending order."""
+        along, across = np.searchsorted(ids, (self._first_along, self._first_across))
+        row, col = np.divmod(ids[:along], self._cols)
+        corners = np.column_stack((row, col)).astype(float)
+        row, col = np.divmod(ids[along:across] - self._first_along, self._cols - 1)
+        t = self._crossing(self._padded[row, col], self._padded[row, col + 1])
+        on_rows = np.column_stack((row, col + t))
+        row, col = np.divmod(ids[across:] - self._first_across, self._cols)
+        t = self._crossing(self._padded[row, col], self._padded[row + 1, col])
+        on_cols = np.column_stack((row + t, col))
+        world = self._geometry.world_of(np.concatenate((corners, on_rows, on_cols)) - 1.0)
+        found = np.isin(ids, self._smooth_ids)
+        world[found] = self._smooth_world[np.searchsorted(self._smooth_ids, ids[found])]
+        return world
 
     def smooth(self, segments: IntArray) -> None:
         """Takes the waves out of the outlines without shrinking them (Taubin 1995)."""
@@ -85,35 +95,41 @@ class _Points:
         before = np.empty(len(used), np.int64)
         a, b = compact.reshape(-1, 2).T
         after[a], before[b] = b, a
-        line = self.world[used]
+        line = self.world_of(used)
         for _ in range(_SMOOTHING_ROUNDS):
             for weight in _TAUBIN:
                 line = line + weight * ((line[after] + line[before]) / 2 - line)
-        self.world[used] = line
+        self._smooth_ids, self._smooth_world = used, line
 
     def of_square(self, rows: IntArray, cols: IntArray) -> IntArray:
         """(N, 8) ids: corners 0-3 counter-clockwise from [row, col], then the edges 4-7 after each."""
+        corner = rows * self._cols + cols
+        along = self._first_along + rows * (self._cols - 1) + cols
+        across = self._first_across + corner
         return np.stack(
             (
-                self.corner[rows, cols],
-                self.corner[rows, cols + 1],
-                self.corner[rows + 1, cols + 1],
-                self.corner[rows + 1, cols],
-                self.along[rows, cols],
-                self.across[rows, cols + 1],
-                self.along[rows + 1, cols],
-                self.across[rows, cols],
+                corner,
+                corner + 1,
+                corner + self._cols + 1,
+                corner + self._cols,
+                along,
+                across + 1,
+                along + self._cols - 1,
+                across,
             ),
             axis=-1,
         )
 
+    def corners(self, rows: IntArray, cols: IntArray) -> IntArray:
+        """Ids of lattice corners."""
+        return np.asarray(rows * self._cols + cols, np.int64)
 
-def _crossing(a: FloatArray, b: FloatArray, level: float) -> FloatArray:
-    """Where between a (0) and b (1) the level lies; 0.5 where it does not."""
-    step = b - a
-    safe = np.where(np.abs(step) < 1e-12, 1.0, step)
-    t = (level - a) / safe
-    return np.where((t > 0) & (t < 1), t, 0.5)
+    def _crossing(self, a: FloatArray, b: FloatArray) -> FloatArray:
+        """Where between a (0) and b (1) the level lies; 0.5 where it does not."""
+        step = b - a
+        safe = np.where(np.abs(step) < _FLAT, 1.0, step)
+        t = (self._level - a) / safe
+        return np.where((t > 0) & (t < 1), t, 0.5)
 
 
 def _polygon(case: int) -> tuple[list[int], list[tuple[int, int]]]:
@@ -158,8 +174,8 @@ def _merged_squares(full: BoolArray, points: _Points) -> IntArray:
     if len(boxes) == 0:
         return np.zeros((0, 3), np.int64)
     r0, c0, r1, c1 = boxes.T
-    a, b = points.corner[r0, c0], points.corner[r0, c1]
-    c, d = points.corner[r1, c1], points.corner[r1, c0]
+    a, b = points.corners(r0, c0), points.corners(r0, c1)
+    c, d = points.corners(r1, c1), points.corners(r1, c0)
     return np.concatenate((np.stack((a, b, c), -1), np.stack((a, c, d), -1)))
 
 
@@ -186,14 +202,14 @@ def greedy_rectangles(mask: BoolArray) -> IntArray:
 
 def _cap(points: _Points, faces: IntArray, height: float) -> Mesh:
     used, compact = np.unique(faces, return_inverse=True)
-    vertices = np.column_stack((points.world[used], np.full(len(used), height)))
+    vertices = np.column_stack((points.world_of(used), np.full(len(used), height)))
     return Mesh(vertices.astype(np.float32), compact.reshape(-1, 3).astype(np.uint32))
 
 
 def _sides(points: _Points, segments: IntArray, height: float) -> Mesh:
     used, compact = np.unique(segments, return_inverse=True)
     pairs = compact.reshape(-1, 2)
-    flat = points.world[used]
+    flat = points.world_of(used)
     count = len(used)
     vertices = np.concatenate(
         (

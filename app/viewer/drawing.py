@@ -18,6 +18,7 @@ from app.viewer.floor_image import (
     grid_picture,
     picture_scale,
     region_picture,
+    region_shapes,
 )
 from app.viewer.graph_shapes import (
     GraphConfig,
@@ -96,26 +97,22 @@ class Drawing:
     furniture_height: float
 
 
-def draw(model: Model, config: DrawingConfig | None = None) -> Drawing:
-    """The drawing of a model."""
+def draw(
+    model: Model, config: DrawingConfig | None = None, earlier: Drawing | None = None
+) -> Drawing:
+    """The drawing of a model; nodes keep the hues of an earlier drawing of it."""
     config = config or DrawingConfig()
     grid, topology = model.grid, model.topology
     display = tidy(grid)
-    colours = node_colours(topology, model.regions)
+    before = {node.id: node.colour for node in earlier.nodes} if earlier is not None else {}
+    colours = node_colours(topology, model.regions, before)
     scale = picture_scale(grid.geometry.shape, config.floor)
     region_colours = {node.region: colours[node.id] for node in topology.nodes}
+    shapes = region_shapes(model.regions, display, config.floor, scale, grid.geometry.resolution)
     floors = {
         name: Floor(
             grid_picture(grid, display, theme, config.floor, scale),
-            region_picture(
-                model.regions,
-                display,
-                region_colours,
-                theme,
-                config.floor,
-                scale,
-                grid.geometry.resolution,
-            ),
+            region_picture(shapes, region_colours, theme),
         )
         for name, theme in (("light", LIGHT), ("dark", DARK))
     }

@@ -115,7 +115,7 @@ class OpenView:
                 {node: label_text(label, regions[node]) for node, label in self.labels().items()}
             )
         else:
-            self.drawing = await asyncio.to_thread(draw, model)
+            self.drawing = await asyncio.to_thread(draw, model, None, self.drawing)
             await asyncio.to_thread(self._scene.draw, self.drawing)
         news = Labels(labels=self.labels(), colours=self.colours())
         for tab in self.tabs.values():

@@ -41,17 +41,21 @@ _SHADE_STEP = 0.10
 _MAX_SHADE = 0.3
 
 
-def node_colours(topology: TopologicalMap, regions: IntArray) -> dict[str, Colour]:
+def node_colours(
+    topology: TopologicalMap, regions: IntArray, earlier: Mapping[str, Colour] | None = None
+) -> dict[str, Colour]:
     """A colour for every node id, unlike its neighbours'; a hue that is used again is shaded.
 
     Neighbours are nodes that a doorway joins or that only a wall divides. Depends on the regions
-    (rows, cols) and edges only, so that naming nodes never recolours anything.
+    (rows, cols) and edges only, so that naming nodes never recolours anything; a node keeps the hue
+    that it had `earlier`, so that an edit recolours nothing else.
     """
     nodes = sorted(topology.nodes, key=lambda node: node.region)
     id_of = {node.region: node.id for node in nodes}
     pairs = [(edge.source, edge.target) for edge in topology.edges]
     pairs += [(id_of[a], id_of[b]) for a, b in _beside(regions) if a in id_of and b in id_of]
-    hues = _hues([node.id for node in nodes], pairs)
+    before = {key: _nearest_hue(colour) for key, colour in (earlier or {}).items()}
+    hues = _hues([node.id for node in nodes], pairs, before)
     colours: dict[str, Colour] = {}
     times: dict[int, int] = {}
     for node in nodes:
@@ -94,17 +98,32 @@ def _beside(regions: IntArray) -> set[tuple[int, int]]:
     return pairs
 
 
-def _hues(keys: Sequence[str], pairs: Iterable[tuple[str, str]]) -> Mapping[str, int]:
-    """Index into PALETTE of each key: greedy, the most constrained first, far from its neighbours."""
+def _nearest_hue(colour: Colour) -> int:
+    """Index into PALETTE of the hue that a colour is a shade of."""
+    return int(np.argmin(np.abs(np.subtract(PALETTE, colour)).sum(axis=1)))
+
+
+def _hues(
+    keys: Sequence[str], pairs: Iterable[tuple[str, str]], before: Mapping[str, int]
+) -> Mapping[str, int]:
+    """Index into PALETTE of each key: greedy, the most constrained first, far from its neighbours.
+
+    Keys with a hue from before are served first and keep it, unless a neighbour has it already.
+    """
     neighbours: dict[str, set[str]] = {key: set() for key in keys}
     for a, b in pairs:
         if a != b and a in neighbours and b in neighbours:
             neighbours[a].add(b)
             neighbours[b].add(a)
     likeness = 1.0 / (1.0 + _distances() / 12.0)
-    order = sorted(keys, key=lambda key: (-len(neighbours[key]), keys.index(key)))
+    order = sorted(
+        keys, key=lambda key: (key not in before, -len(neighbours[key]), keys.index(key))
+    )
     chosen: dict[str, int] = {}
     for key in order:
+        if key in before and before[key] not in {chosen.get(other) for other in neighbours[key]}:
+            chosen[key] = before[key]
+            continue
         cost = np.zeros(len(PALETTE))
         for other, hue in chosen.items():
             weight = _NEIGHBOUR_WEIGHT if other in neighbours[key] else 1.0
