@@ -194,7 +194,9 @@ def _divided(grid: OccupancyGrid, left: BoolArray, config: AutomaticConfig) -> S
     box = ndimage.find_objects(left.astype(np.int64))[0]
     box = tuple(slice(max(0, s.start - 1), s.stop + 1) for s in box)
     state = np.where(grid.free & ~left, UNKNOWN, grid.state)[box].astype(np.uint8)
-    part = OccupancyGrid(GridGeometry(grid.geometry.resolution, (0.0, 0.0, 0.0), state.shape), state)
+    part = OccupancyGrid(
+        GridGeometry(grid.geometry.resolution, (0.0, 0.0, 0.0), state.shape), state
+    )
     found = segment_automatically(part, config)
     regions, rooms = np.zeros(left.shape, np.int64), np.zeros(left.shape, np.int64)
     regions[box], rooms[box] = found.regions, found.rooms

@@ -78,9 +78,8 @@ def boundary_shape(
     discs = _open_places(frame, floor, clearance, resolution)
     jamb = _jambs(frame, length, floor, resolution)
     aligned = _walls_in_line(frame, length, wall, resolution)
-    return BoundaryShape(
-        length * resolution, 2 * passage, *widths, *discs, *jamb, *aligned, roughness * resolution
-    )
+    around = (*widths, *discs, *jamb, *aligned)
+    return BoundaryShape._make((length * resolution, 2 * passage, *around, roughness * resolution))
 
 
 @numba.njit(cache=True)

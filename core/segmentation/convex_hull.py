@@ -33,7 +33,8 @@ def convex_hull(points: FloatArray) -> FloatArray:
 @numba.njit(cache=True)
 def _turn(a: FloatArray, b: FloatArray, c: FloatArray) -> float:
     """Twice the signed area of a triangle."""
-    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    area: float = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+    return area
 
 
 @numba.njit(cache=True)
