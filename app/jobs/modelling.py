@@ -43,7 +43,7 @@ class Modelling:
     async def run(self, job: ActiveJob) -> None:
         """Makes the model."""
         models, limits = self.services.models, self.services.job_limits
-        await asyncio.to_thread(models.set_status, self.model_id, Status.RUNNING)
+        await asyncio.to_thread(models.set_running, self.model_id)
 
         def report(share: float, what: str) -> None:
             job.report(WORKING_SHARE * share, what)
@@ -64,7 +64,7 @@ class Modelling:
     def ended(self, status: Status, error: str | None) -> None:
         """Notes on the model how its job ended."""
         if status is not Status.DONE:
-            self.services.models.set_status(self.model_id, status, error)
+            self.services.models.set_ended(self.model_id, status, error)
 
 
 async def model_a_log(

@@ -6,7 +6,7 @@ import asyncio
 import contextlib
 import logging
 from collections.abc import AsyncIterator, Coroutine, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Protocol
 
 from app.storage.job_store import JobStore
@@ -49,6 +49,7 @@ class ActiveJob:
         self._work: asyncio.Task[None] | None = None
         self._stop = False
         self._committing = False
+        self.changes = 0
         self._changed = asyncio.Event()
 
     def report(self, share: float, what: str) -> None:
@@ -58,16 +59,18 @@ class ActiveJob:
 
     def changed(self) -> None:
         """Wakes everybody who watches."""
+        self.changes += 1
         self._changed.set()
         self._changed = asyncio.Event()
 
-    async def wait(self, seconds: float) -> bool:
-        """Waits for a change; False if none came in time."""
-        try:
-            async with asyncio.timeout(seconds):
-                await self._changed.wait()
-        except TimeoutError:
-            return False
+    async def wait(self, seen: int, seconds: float) -> bool:
+        """Waits until there are more changes than those seen; False if none came in time."""
+        if self.changes == seen:
+            try:
+                async with asyncio.timeout(seconds):
+                    await self._changed.wait()
+            except TimeoutError:
+                return False
         return True
 
     @contextlib.contextmanager
@@ -133,8 +136,9 @@ class JobRunner:
         """
         job = self._active.get(job_id)
         while job is not None and not job.record.status.ended:
+            seen = job.changes
             yield job.view()
-            while not await job.wait(heartbeat_s):
+            while not await job.wait(seen, heartbeat_s):
                 yield None
         yield job.view() if job is not None else await asyncio.to_thread(self.view, job_id)
 
@@ -166,6 +170,7 @@ class JobRunner:
             job.progress = 1.0 if status is Status.DONE else job.progress
         except Exception:
             logger.exception("the end of job %s could not be stored", job.record.id)
+            job.record = replace(job.record, status=Status.FAILED, error=INTERNAL)
         finally:
             self._active.pop(job.record.id, None)
             job.over.set()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from dataclasses import replace
 
-from sqlalchemy import insert, select, update
+from sqlalchemy import ColumnElement, insert, select, update
 
 from app.errors import NotFound
 from app.storage.data_folder import new_id
@@ -40,8 +40,9 @@ class JobStore:
         return JobRecord(**{**row, "status": Status(row["status"])})
 
     def start(self, job: JobRecord) -> JobRecord:
-        """Notes that a job runs from now on."""
-        return self._save(replace(job, status=Status.RUNNING, started=time.time()))
+        """Notes that a job runs from now on, unless it has ended already."""
+        running = replace(job, status=Status.RUNNING, started=time.time())
+        return self._save(running, jobs.c.status == Status.QUEUED)
 
     def end(self, job: JobRecord, status: Status, error: str | None) -> JobRecord:
         """Notes how a job ended."""
@@ -57,7 +58,8 @@ class JobStore:
                 .values(status=Status.FAILED, error=reason, finished=time.time())
             )
 
-    def _save(self, job: JobRecord) -> JobRecord:
+    def _save(self, job: JobRecord, *conditions: ColumnElement[bool]) -> JobRecord:
+        statement = update(jobs).where(jobs.c.id == job.id, *conditions)
         with self._database.write() as connection:
-            connection.execute(update(jobs).where(jobs.c.id == job.id).values(**vars(job)))
+            connection.execute(statement.values(**vars(job)))
         return job

@@ -107,10 +107,15 @@ class ModelStore:
         """Notes the job that makes the model."""
         self._set(model_id, job_id=job_id, status=Status.QUEUED, error=None)
 
-    def set_status(self, model_id: str, status: Status, error: str | None = None) -> None:
-        """Notes how far the job is; a model that was whole before stays whole when it fails."""
-        ended_badly = status in (Status.FAILED, Status.CANCELLED)
-        whole = ended_badly and self._files.history(model_id) is not None
+    def set_running(self, model_id: str) -> None:
+        """Notes that the model is being made, unless its job has ended already."""
+        waiting = (models.c.id == model_id) & (models.c.status == Status.QUEUED)
+        with self._database.write() as connection:
+            connection.execute(update(models).where(waiting).values(status=Status.RUNNING))
+
+    def set_ended(self, model_id: str, status: Status, error: str | None) -> None:
+        """Notes that the model was not made; one that was whole before stays whole."""
+        whole = self._files.history(model_id) is not None
         self._set(model_id, status=Status.DONE if whole else status, error=error)
 
     def publish(
@@ -231,7 +236,7 @@ class ModelStore:
         for model_id, status in status_of.items():
             self._files.recover(model_id)
             if not status.ended:
-                self.set_status(model_id, Status.FAILED, reason)
+                self.set_ended(model_id, Status.FAILED, reason)
             if self._files.history(model_id) is not None:
                 self._index(model_id, facts_of(self.folder(model_id)))
 

@@ -171,7 +171,7 @@ def test_an_expected_revision_that_is_not_there_any_more_is_a_conflict(home: Hom
 
 
 def test_shapes_cannot_be_edited_while_a_job_makes_the_model_but_names_can(home: Home) -> None:
-    home.models.set_status(home.id, Status.RUNNING)
+    home.models.set_job(home.id, "job")
     for refused in (
         lambda: home.models.edit(home.id, merge([home.node(1), home.node(2)])),
         lambda: home.models.undo(home.id),

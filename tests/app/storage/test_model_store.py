@@ -148,7 +148,9 @@ def test_after_a_crash_what_was_being_made_has_failed(home: Home) -> None:
     waiting = home.models.add("waiting", {}, []).id
     grown = home.models.add("grown", {}, []).id
     home.publish(grown)
-    home.models.set_status(grown, Status.RUNNING)
+    home.models.set_job(grown, "job")
+    home.models.set_running(grown)
+    assert home.models.get(grown).status is Status.RUNNING
     home.crash()
     assert home.models.get(waiting).status is Status.FAILED
     assert home.models.get(waiting).error == "it was interrupted"
