@@ -183,7 +183,7 @@ def _remaining(state: ExtractionState, grid: OccupancyGrid, robot: IntArray | No
     closed = tuple(region for region in state.regions if not region.is_open)
     left = grid.free & (painted(closed, grid.geometry) == 0)
     if robot is None:
-        return left
+        return np.asarray(left)
     pieces, _ = ndimage.label(left)
     here = pieces[tuple(robot)]
     return np.asarray((pieces == here) & (here > 0))

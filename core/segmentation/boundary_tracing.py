@@ -36,7 +36,7 @@ def trace_boundary(mask: BoolArray) -> IntArray:
             if padded[tuple(step)]:
                 break
         else:
-            return start[None] - 1
+            return np.asarray(start[None] - 1)
         move = (int(cell[0]), int(cell[1]), way)
         if first_move is None:
             first_move = move

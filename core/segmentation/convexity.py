@@ -40,7 +40,7 @@ def blocked_in_hull(cluster: BoolArray, grid: OccupancyGrid, config: ConvexityCo
     if len(cells) < 3:
         return 0
     hull = convex_hull(cells)
-    row, col = polygon(hull[:, 0], hull[:, 1], cluster.shape)
+    row, col = polygon(hull[:, 0], hull[:, 1], cluster.shape)  # type: ignore[no-untyped-call]
     inside = grid.occupied if config.counted == "occupied" else ~grid.free
     return int(inside[row, col].sum())
 

@@ -55,7 +55,7 @@ def draft_cells(
     config = config or DraftConfig()
     basins = _basins(floor, clearance, config)
     barrier = _drawn(wall_extensions(floor, resolution, config.extensions), floor)
-    pieces = label(np.where(barrier, 0, basins), connectivity=1, background=0)
+    pieces = label(np.where(barrier, 0, basins), connectivity=1, background=0)  # type: ignore[no-untyped-call]
     nearest = ndimage.distance_transform_edt(
         pieces == 0, return_distances=False, return_indices=True
     )
@@ -66,9 +66,9 @@ def draft_cells(
 def _basins(floor: BoolArray, clearance: FloatArray, config: DraftConfig) -> IntArray:
     """Watershed of the clearance from its maxima that stand out by the depth (h-maxima)."""
     smooth = ndimage.gaussian_filter(clearance, config.smoothing) * floor
-    domes = smooth - reconstruction(smooth - config.depth, smooth)
+    domes = smooth - reconstruction(smooth - config.depth, smooth)  # type: ignore[no-untyped-call]
     markers, _ = ndimage.label((domes >= config.depth - 1e-6) & floor, np.ones((3, 3)))
-    return np.asarray(watershed(-smooth, markers, mask=floor), np.int64)
+    return np.asarray(watershed(-smooth, markers, mask=floor), np.int64)  # type: ignore[no-untyped-call]
 
 
 def _drawn(segments: FloatArray, floor: BoolArray) -> BoolArray:
@@ -78,7 +78,7 @@ def _drawn(segments: FloatArray, floor: BoolArray) -> BoolArray:
         ahead = stop - start
         ahead = ahead / max(float(np.hypot(*ahead)), 1e-9) * OVERSHOOT
         ends = np.rint(np.concatenate((start - ahead, stop + ahead))).astype(int)
-        row, col = line(*ends)
+        row, col = line(*ends)  # type: ignore[no-untyped-call]
         inside = (row >= 0) & (col >= 0) & (row < floor.shape[0]) & (col < floor.shape[1])
         drawn[row[inside], col[inside]] = True
     return drawn & floor

@@ -68,7 +68,7 @@ def reliable_region(
     if len(corners) < 3:
         return np.zeros_like(here)
     inside = np.zeros_like(here)
-    inside[polygon(corners[:, 0], corners[:, 1], here.shape)] = True
+    inside[polygon(corners[:, 0], corners[:, 1], here.shape)] = True  # type: ignore[no-untyped-call]
     reliable, _ = ndimage.label(here & inside)
     if reliable[tuple(seed)] == 0:
         return np.zeros_like(here)

@@ -46,8 +46,8 @@ def wall_extensions(
     """
     config = config or ExtensionConfig()
     found = []
-    for contour in find_contours(np.pad(floor, 1).astype(float), 0.5):
-        corners = approximate_polygon(contour - 1, config.tolerance / resolution)
+    for contour in find_contours(np.pad(floor, 1).astype(float), 0.5):  # type: ignore[no-untyped-call]
+        corners = approximate_polygon(contour - 1, config.tolerance / resolution)  # type: ignore[no-untyped-call]
         walls = np.diff(corners, axis=0)
         length = np.hypot(walls[:, 0], walls[:, 1])
         for i in np.flatnonzero(length * resolution >= config.shortest_wall):

@@ -4,7 +4,6 @@ from core.mapping import GridGeometry, OccupancyGrid
 from core.segmentation.autonomous import extract, finish, region_image
 from core.segmentation.extraction_state import ExtractionState, lattice_corner, painted
 
-
 LEFT, RIGHT = np.array([2.5, 2.0, 0.0]), np.array([7.0, 2.0, 0.0])
 
 
