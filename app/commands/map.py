@@ -39,7 +39,7 @@ def map_log(
     out: Annotated[Path, typer.Option(help="Folder to write.")],
     method: Annotated[Mapping, typer.Option(help="Mapping method.")] = Mapping.cemal,
     resolution: ResolutionOption = 0.05,
-    odometry: OdometryOption = Odometry.raw,
+    odometry: OdometryOption = Odometry.corrected,
     ring: RingOption = None,
 ) -> None:
     """Make an occupancy grid: map.yaml, map.pgm, trajectory.csv."""
@@ -47,15 +47,17 @@ def map_log(
     from app.commands.output_folder import complete_folder
     from app.commands.terminal import progress_bar
     from core.mapping.map_server import write_map
+    from core.pipeline.corrected_drive import corrected_drive
     from core.pipeline.mapper import MappingOptions
     from core.pipeline.mapper import map_log as make_map
     from core.progress import part_of
-    from core.sensing import Trajectory
 
     options = MappingOptions(method.value, resolution)
     with progress_bar() as progress, complete_folder(out) as folder:
-        drive = load_log(log, ring, part_of(progress, 0.0, 0.1))
-        trajectory = Trajectory.from_odometry(drive)
-        result = make_map(drive, trajectory, options, part_of(progress, 0.1, 1.0))
+        read = load_log(log, ring, part_of(progress, 0.0, 0.05))
+        drive = corrected_drive(read, odometry.value, part_of(progress, 0.05, 0.7))
+        result = make_map(drive.log, drive.trajectory, options, part_of(progress, 0.7, 1.0))
         write_map(result.grid, folder)
-        trajectory.write_csv(folder / "trajectory.csv")
+        drive.whole.trajectory.write_csv(folder / "trajectory.csv")
+    for sentence in drive.whole.sentences:
+        typer.echo(sentence)

@@ -45,7 +45,7 @@ def model(
         Method, typer.Option(help="EchoRooms' default or the paper as written.")
     ] = Method.default,
     mapping: Annotated[Mapping, typer.Option(help="Mapping method.")] = Mapping.cemal,
-    odometry: OdometryOption = Odometry.raw,
+    odometry: OdometryOption = Odometry.corrected,
     resolution: ResolutionOption = 0.05,
     ring: RingOption = None,
     seed: Annotated[int, typer.Option(help="Of everything that is drawn.")] = 0,

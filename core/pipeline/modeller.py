@@ -12,7 +12,9 @@ import numpy as np
 from core.errors import InputError, MapError, UsageError
 from core.mapping import OccupancyGrid
 from core.mapping.occupancy_grid import DEFAULT_RESOLUTION
+from core.pipeline.corrected_drive import corrected_drive
 from core.pipeline.mapper import MappingMethod, MappingOptions, map_log
+from core.pipeline.odometry import OdometryChoice
 from core.pipeline.region_finder import (
     FoundRegions,
     along_the_drive,
@@ -28,8 +30,8 @@ from core.topology.labels import carried_labels, room_image
 from core.topology.topology_of import topology_of
 
 Mode = Literal["autonomous", "offline"]
-MAPPING_SHARE, CUTTING_SHARE = 0.3, 0.95
-"""Shares of the time after which the map and the regions are there, for the progress."""
+DRIFT_SHARE, MAPPING_SHARE, CUTTING_SHARE = 0.35, 0.45, 0.95
+"""Shares of the time after which trajectory, map and regions are there, for the progress."""
 SMALLEST_PART = 1.0
 """Square metres of a separate part of an imported map that is modelled."""
 
@@ -52,7 +54,7 @@ class ModellingOptions:
     method: Literal["default", "paper"] = "default"
     regions: int | None = None
     mapping: MappingMethod = "cemal"
-    odometry: Literal["raw", "calibrated", "corrected"] = "raw"
+    odometry: OdometryChoice = "corrected"
     resolution: float = DEFAULT_RESOLUTION
     seed: int = 0
 
@@ -85,10 +87,13 @@ def model_log(
         InputError: the log cannot be modelled so.
     """
     options = options or ModellingOptions()
-    log = log.without_truth()
-    trajectory = Trajectory.from_odometry(log)
+    whole, drive = (
+        log,
+        corrected_drive(log.without_truth(), options.odometry, part_of(progress, 0.0, DRIFT_SHARE)),
+    )
+    log, trajectory = drive.log, drive.trajectory
     mapping = MappingOptions(options.mapping, options.resolution)
-    result = map_log(log, trajectory, mapping, part_of(progress, 0.0, MAPPING_SHARE))
+    result = map_log(log, trajectory, mapping, part_of(progress, DRIFT_SHARE, MAPPING_SHARE))
     grid, rest = result.grid, part_of(progress, MAPPING_SHARE, CUTTING_SHARE)
     cells = grid.geometry.cell_of(trajectory.poses[:, :2])
     floor = largest_component(grid.free, cells[grid.geometry.contains(cells)])
@@ -99,14 +104,18 @@ def model_log(
     else:
         found = along_the_drive(log, trajectory, grid, floor, mapping, rest)
     source = {
-        "log": log.name,
-        "scans": len(log),
-        "duration_s": round(log.duration_s, 3),
-        "distance_m": round(log.distance_m, 3),
+        "log": whole.name,
+        "scans": len(whole),
+        "duration_s": round(whole.duration_s, 3),
+        "distance_m": round(whole.distance_m, 3),
     }
-    provenance = {"inputs": [source], "mapping": mapping.parameters()}
+    provenance = {
+        "inputs": [source],
+        "odometry": drive.provenance(),
+        "mapping": mapping.parameters(),
+    }
     progress(CUTTING_SHARE, "finding doorways")
-    return _model(grid, found, trajectory, options, provenance, previous)
+    return _model(grid, found, drive.whole.trajectory, options, provenance, previous)
 
 
 def model_map(

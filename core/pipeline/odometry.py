@@ -25,6 +25,8 @@ from core.mapping.odometry_breaks import (
 from core.mapping.odometry_calibration import OdometryCalibration
 from core.mapping.odometry_model import OdometryNoise, without_systematic_error
 from core.mapping.reflection_points import ReflectionPoints, path_length, reflection_points
+from core.mapping.scan_matching import points_in_world
+from core.mapping.wall_direction import wall_sharpness
 from core.progress import Progress, no_progress, part_of
 from core.sensing.robot_log import RobotLog
 from core.sensing.trajectory import Trajectory
@@ -39,10 +41,15 @@ class OdometryConfig:
 
     Attributes:
         gain: a correction must make the map sharper by at least this factor, else the odometry stays.
+        wall_gain: where no place was visited twice, sharpness says little: the walls must become
+            straighter by this factor ...
+        wall_loss: ... and the map not less sharp than this.
         weak_heading, weak_position: stretches whose pose is less certain than this (rad, m) are named.
     """
 
     gain: float = 1.02
+    wall_gain: float = 1.05
+    wall_loss: float = 0.9
     weak_heading: float = float(np.radians(4.0))
     weak_position: float = 0.25
     drift: DriftConfig = field(default_factory=DriftConfig)
@@ -104,7 +111,8 @@ def trajectory_for(
         "calibrated": _uncertain(drive, calibrated, config.drift.noise, result.calibration),
         "corrected": result.trajectory,
     }
-    used = _best(drive, options, choice, config)
+    revisited = any(closure.accepted for closure in result.closures)
+    used = _best(drive, options, choice, revisited, config)
     trajectory = _whole(smooth, part, options[used])
     progress(1.0, "odometry")
     return OdometryResult(
@@ -130,6 +138,7 @@ def _best(
     drive: RobotLog,
     options: dict[OdometryChoice, Trajectory],
     choice: OdometryChoice,
+    revisited: bool,
     config: OdometryConfig,
 ) -> OdometryChoice:
     """The choice if its map is sharper than the odometry's, else the next simpler one that is.
@@ -142,21 +151,27 @@ def _best(
     for name in order[order.index(choice) :]:
         poses = options[name].poses
         by_option = reflection_points(drive, poses, config.drift.reflection)
-        gain = min(
-            _gain(points, poses, drive.odometry, config.sharpness)
-            for points in (by_odometry, by_option)
-        )
-        if gain >= config.gain:
+        gains = [
+            _gains(points, poses, drive.odometry, config) for points in (by_odometry, by_option)
+        ]
+        sharper, straighter = (min(gain) for gain in zip(*gains, strict=True))
+        by_walls = not revisited and sharper >= config.wall_loss and straighter >= config.wall_gain
+        if sharper >= config.gain or by_walls:
             return name
     return "raw"
 
 
-def _gain(
-    points: ReflectionPoints, poses: FloatArray, odometry: FloatArray, config: SharpnessConfig
-) -> float:
-    """How much sharper the map is at the poses than at the odometry."""
-    sharp = map_sharpness(points, odometry, config)
-    return map_sharpness(points, poses, config) / sharp if sharp > 0 else 0.0
+def _gains(
+    points: ReflectionPoints, poses: FloatArray, odometry: FloatArray, config: OdometryConfig
+) -> tuple[float, float]:
+    """How much sharper the map and how much straighter its walls are at the poses than at the odometry."""
+    walls, sharp = config.drift.walls, config.sharpness
+    before = map_sharpness(points, odometry, sharp)
+    straight = wall_sharpness(*points_in_world(points, odometry), walls)
+    return (
+        map_sharpness(points, poses, sharp) / before if before > 0 else 0.0,
+        wall_sharpness(*points_in_world(points, poses), walls) / straight if straight > 0 else 0.0,
+    )
 
 
 def _uncertain(
@@ -224,7 +239,7 @@ def _findings(
         f"{accepted} places were found again ({len(result.closures) - accepted} more were tried and "
         "rejected)."
         if result.closures
-        else "No place was visited twice, so nothing confirms the positions along the drive."
+        else "No place was visited twice: only the directions of the walls speak about the drift."
     )
     if used != choice:
         out.append(
