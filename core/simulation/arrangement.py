@@ -163,7 +163,7 @@ def _set_table(
     low, high = (place.x0, place.x1) if wide else (place.y0, place.y1)
     seats = (low + 0.27 * (high - low), low + 0.73 * (high - low))
     for side in (0, 1):
-        for seat in seats if rng.random() < 0.6 else ((low + high) / 2,):
+        for seat in seats if rng.random() < 0.3 else ((low + high) / 2,):
             pulled = rng.uniform(0.0, 0.1)
             start = _cm(seat - CHAIR / 2)
             if wide:

@@ -22,10 +22,16 @@ from core.simulation.path_follower import Cruise, PathFollower
 from core.simulation.robot import SimulatedRobot
 from core.simulation.route_planner import RoutePlanner
 from core.simulation.sonar_model import SonarModel
-from core.simulation.tour import ALREADY_SEEN, mapping_goals, random_pose, roaming_goals
+from core.simulation.tour import (
+    mapping_goals,
+    random_pose,
+    roaming_goals,
+)
 
 Tour = Literal["mapping", "localization", "spin"]
 TOURS: tuple[str, ...] = get_args(Tour)
+POSE_DECIMALS = 4
+"""Poses are logged to 0.1 mm and 0.1 mrad."""
 
 
 @dataclass(frozen=True)
@@ -121,7 +127,7 @@ def simulate(
     incidents = Incidents(kidnap, jump)
     drive = _Drive(robot, planner, config, incidents, pose_rng, progress)
     if tour == "mapping":
-        drive.visit(mapping_goals(home, planner, start, goals_rng), config.mapping_length)
+        drive.visit(mapping_goals(home, planner, lambda: drive.driven), config.mapping_length)
         drive.roam(roaming_goals(planner, start, goals_rng), config.mapping_length)
     elif tour == "localization":
         length = float(goals_rng.uniform(*config.localization_length))
@@ -154,13 +160,15 @@ class _Drive:
         self._scans = [robot.sense()]
         self._poses = [robot.pose.copy()]
 
-    def visit(self, goals: list[FloatArray], length: float) -> None:
-        """Visits goals in turn, without those that the way so far came near to already."""
-        for goal in goals[:-1]:
-            driven = np.array(self._poses)[:, :2]
-            if np.hypot(*(driven - goal).T).min() > ALREADY_SEEN:
-                self._go_to(goal, length)
-        self._go_to(goals[-1], length)
+    @property
+    def driven(self) -> FloatArray:
+        """True positions (N, 2) so far."""
+        return np.array(self._poses)[:, :2]
+
+    def visit(self, goals: Iterator[FloatArray], length: float) -> None:
+        """Visits goals, all of them."""
+        for goal in goals:
+            self._go_to(goal, length)
 
     def roam(self, goals: Iterator[FloatArray], length: float) -> None:
         """Visits goals until `length` metres are driven."""
@@ -180,10 +188,10 @@ class _Drive:
             name,
             self._robot.ring,
             np.array([scan.t for scan in self._scans]),
-            np.array([scan.odometry for scan in self._scans]),
+            np.round([scan.odometry for scan in self._scans], POSE_DECIMALS),
             np.array([scan.ranges for scan in self._scans]),
             np.array([scan.fresh for scan in self._scans]),
-            np.array(self._poses),
+            np.round(self._poses, POSE_DECIMALS),
         )
 
     def _go_to(self, goal: FloatArray, length: float, stop_at_length: bool = False) -> None:

@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 from core.simulation.floor_plan import Box
 
 LEG = 0.05
-"""Side of a table's or chair's leg (m)."""
+"""Side of a chair's leg (m). A table counts as solid: its top lies inside the beam, which is as high as
+it is wide."""
 
 
 @dataclass(frozen=True)
@@ -101,7 +102,7 @@ KINDS: dict[str, Kind] = {
     "coffee table": Kind("wood", 0.45),
     "counter": Kind("shelf", 0.9),
     "desk": Kind("wood", 0.75),
-    "dining table": Kind("leg", 0.75, on_legs=True),
+    "dining table": Kind("wood", 0.75),
     "fridge": Kind("wood", 1.8),
     "night stand": Kind("wood", 0.5),
     "plant": Kind("shelf", 1.2, is_round=True),

@@ -40,8 +40,8 @@ class SonarModel:
     noise_per_metre: float = 0.005
     lateness: float = 0.02
     dropouts: float = 0.02
-    outliers: float = 0.02
-    crosstalk: float = 0.02
+    outliers: float = 0.01
+    crosstalk: float = 0.01
     step: float = 0.01
 
 

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
+from scipy.spatial import cKDTree
 
-from core.geometry import FloatArray, IntArray
+from core.geometry import FloatArray
 from core.simulation.home import Home
 from core.simulation.route_planner import RoutePlanner
 
-SPACING = 1.5
-"""A mapping tour comes within about this of every place it can reach (m)."""
-ALREADY_SEEN = 0.7
-"""A goal this near (m) to the way driven so far is left out."""
-EASE = 0.42
-"""Goals keep this far from everything (m), in rooms that have such places."""
+NEAR_ENOUGH = 0.9
+"""A mapping tour comes this near to every place that it can reach (m)."""
 ROAM_APART = 2.0
 """Goals of a random drive are at least this far apart (m)."""
 
@@ -28,23 +25,36 @@ def random_pose(planner: RoutePlanner, rng: np.random.Generator) -> FloatArray:
 
 
 def mapping_goals(
-    home: Home, planner: RoutePlanner, start: FloatArray, rng: np.random.Generator
-) -> list[FloatArray]:
-    """Goals (2,) that together visit every part of every room, room by room, and end at the start."""
-    goals: list[FloatArray] = []
-    at = np.asarray(start[:2], float)
-    for room in _rooms_in_order(home, planner, at):
-        cells = planner.passable_cells()
-        inside = cells[planner.truth.rooms[cells[:, 0], cells[:, 1]] == room]
-        easy = inside[planner.clearance[inside[:, 0], inside[:, 1]] >= EASE]
-        inside = easy if len(easy) else inside
-        waiting = planner.geometry.world_of(_spread(inside, planner, rng))
-        while len(waiting):
-            nearest = int(np.hypot(*(waiting - at).T).argmin())
-            at = waiting[nearest]
-            goals.append(at)
-            waiting = np.delete(waiting, nearest, axis=0)
-    return [*goals, np.asarray(start[:2], float)]
+    home: Home, planner: RoutePlanner, driven: Callable[[], FloatArray]
+) -> Iterator[FloatArray]:
+    """Goals (2,) that together come near to every part of every room, room by room.
+
+    Args:
+        home: for its doors.
+        planner: for where the robot can be.
+        driven: gives the true positions (N, 2) so far; asked again before every goal.
+    """
+    for room in _rooms_in_order(home, planner, driven()[-1]):
+        places = _places_in(room, planner)
+        given_up = np.zeros(len(places), np.bool_)
+        while True:
+            distance, _ = cKDTree(driven()).query(places) if len(places) else (np.zeros(0), None)
+            missed = np.flatnonzero((distance > NEAR_ENOUGH) & ~given_up)
+            if not len(missed):
+                break
+            nearest = missed[np.hypot(*(places[missed] - driven()[-1]).T).argmin()]
+            # a little beyond the nearest missed place, in the midst of the missed ones around it
+            around = places[missed][np.hypot(*(places[missed] - places[nearest]).T) < NEAR_ENOUGH]
+            goal = around[np.hypot(*(around - around.mean(axis=0)).T).argmin()]
+            given_up[nearest] = True
+            yield goal
+
+
+def _places_in(room: int, planner: RoutePlanner) -> FloatArray:
+    """All passable positions (N, 2) of a room, its corners too."""
+    cells = planner.passable_cells()
+    inside = cells[planner.truth.rooms[cells[:, 0], cells[:, 1]] == room]
+    return planner.geometry.world_of(inside)
 
 
 def roaming_goals(
@@ -63,19 +73,6 @@ def roaming_goals(
             continue
         at = goal
         yield goal
-
-
-def _spread(cells: IntArray, planner: RoutePlanner, rng: np.random.Generator) -> IntArray:
-    """Cells of a room that lie SPACING apart and leave no cell farther than that from all of them."""
-    if not len(cells):
-        return cells
-    centres = planner.geometry.world_of(cells)
-    chosen = [int(rng.integers(len(cells)))]
-    distance = np.hypot(*(centres - centres[chosen[0]]).T)
-    while distance.max() > SPACING:
-        chosen.append(int(distance.argmax()))
-        distance = np.minimum(distance, np.hypot(*(centres - centres[chosen[-1]]).T))
-    return np.asarray(cells[chosen])
 
 
 def _rooms_in_order(home: Home, planner: RoutePlanner, at: FloatArray) -> list[int]:
