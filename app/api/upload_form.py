@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-from collections.abc import Iterator, Mapping
+from collections.abc import AsyncIterator, Iterator, Mapping
 from dataclasses import dataclass, field
 from http import HTTPStatus
 from pathlib import Path
@@ -62,14 +62,15 @@ async def receive_form(request: Request, folder: Path, max_bytes: int) -> Upload
         TooLarge: the body is larger than `max_bytes`.
         Problem: it is no multipart form, or a broken one.
     """
+    chunks = request.stream()
     if _announced(request) > max_bytes:
-        raise await _too_large(request, max_bytes)
+        raise await _too_large(chunks, max_bytes)
     with _FormWriter(_boundary(request), folder).open() as writer:
         received, pending = 0, bytearray()
-        async for chunk in request.stream():
+        async for chunk in chunks:
             received += len(chunk)
             if received > max_bytes:
-                raise await _too_large(request, max_bytes)
+                raise await _too_large(chunks, max_bytes)
             pending += chunk
             if len(pending) >= WRITE_BYTES:
                 await asyncio.to_thread(writer.write, bytes(pending))
@@ -96,11 +97,11 @@ def _announced(request: Request) -> int:
     return int(length) if length.isdecimal() else 0
 
 
-async def _too_large(request: Request, max_bytes: int) -> TooLarge:
+async def _too_large(chunks: AsyncIterator[bytes], max_bytes: int) -> TooLarge:
     """The error, once the sender has had time to finish: a browser in mid-upload hears no answer."""
     with contextlib.suppress(TimeoutError):
         async with asyncio.timeout(DRAIN_S):
-            async for _ in request.stream():
+            async for _ in chunks:
                 pass
     return TooLarge(f"an upload may have at most {max_bytes // MEBIBYTE} MB")
 

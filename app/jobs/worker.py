@@ -24,6 +24,8 @@ from app.jobs.tasks import load_task
 from core.errors import EchoRoomsError, LogError, TooLargeError, UsageError
 
 PROGRESS_INTERVAL_S = 0.1
+IDLE_BEFORE_IMPORTS_S = 1.0
+"""A worker that is kept warm leaves the processor to the server while that starts."""
 NICENESS = 5
 """Below the server, so that pages stay quick while every core models."""
 HEAVY_MODULES = (
@@ -48,11 +50,15 @@ def main() -> None:
     requests: queue.Queue[dict[str, Any]] = queue.Queue()
     threading.Thread(target=_read_requests, args=(requests,), daemon=True).start()
     ahead = list(HEAVY_MODULES) if "--warm" in sys.argv else []
+    patience = IDLE_BEFORE_IMPORTS_S
     while True:
-        if ahead and requests.empty():
+        try:
+            request = requests.get(timeout=patience if ahead else None)
+        except queue.Empty:
+            patience = 0.0
             _import_ahead(ahead.pop(0))
         else:
-            _serve(requests.get(), answers)
+            _serve(request, answers)
 
 
 def _claim_stdout() -> TextIO:

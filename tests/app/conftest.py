@@ -101,10 +101,16 @@ def client(settings: Settings) -> Iterator[TestClient]:
 
 
 @pytest.fixture(scope="session")
-def shared_client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]:
+def shared_settings(tmp_path_factory: pytest.TempPathFactory) -> Settings:
+    """Settings of the shared server."""
+    folder = tmp_path_factory.mktemp("shared")
+    return Settings(data=folder / "data", max_jobs=2, warm_workers=1)
+
+
+@pytest.fixture(scope="session")
+def shared_client(shared_settings: Settings) -> Iterator[TestClient]:
     """A server that tests share which look at their own things only."""
-    settings = Settings(data=tmp_path_factory.mktemp("shared"), max_jobs=2, warm_workers=1)
-    with TestClient(create_app(settings), base_url=LOOPBACK) as client:
+    with TestClient(create_app(shared_settings), base_url=LOOPBACK) as client:
         yield client
 
 

@@ -103,35 +103,35 @@ def test_a_deleted_log_is_gone_with_its_files(
     ],
 )
 def test_no_file_name_leaves_the_folder_of_its_log(
-    client: TestClient, settings: Settings, make_log: Any, name: str
+    shared_client: TestClient, shared_settings: Settings, make_log: Any, name: str
 ) -> None:
-    response = post(client, make_log(), name)
+    response = post(shared_client, make_log(), name)
     if response.status_code == 201:
-        (kept,) = (settings.data / "logs" / response.json()["id"] / "original").iterdir()
+        (kept,) = (shared_settings.data / "logs" / response.json()["id"] / "original").iterdir()
         assert kept.is_file()
         assert len(kept.name) <= 60
     else:
         assert response.status_code == 422
-    outside = [p for p in settings.data.parent.iterdir() if p != settings.data]
+    outside = [p for p in shared_settings.data.parent.iterdir() if p != shared_settings.data]
     assert outside == []
 
 
-def test_a_zip_with_a_log_yaml_is_a_log(client: TestClient) -> None:
+def test_a_zip_with_a_log_yaml_is_a_log(shared_client: TestClient) -> None:
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w") as archive:
         archive.writestr("log.yaml", "files: nonsense\n")
-    response = post(client, packed.getvalue(), "corridor.zip")
+    response = post(shared_client, packed.getvalue(), "corridor.zip")
     assert response.status_code == 422
     assert "log.yaml" in response.json()["detail"]
 
 
 def test_the_ring_is_a_preset_or_a_text_but_never_a_file_of_the_server(
-    client: TestClient, make_log: Any, tmp_path: Path
+    shared_client: TestClient, make_log: Any, tmp_path: Path
 ) -> None:
     secret = tmp_path / "ring.yaml"
     secret.write_text("robot: {radius: 0.2}\nsonars: [{x: 0, y: 0, heading: 0}]\n")
-    assert post(client, make_log(), ring="paper-12").status_code in (201, 422)
-    response = post(client, make_log(), ring=str(secret))
+    assert post(shared_client, make_log(), ring="paper-12").status_code in (201, 422)
+    response = post(shared_client, make_log(), ring=str(secret))
     assert response.status_code == 422
     assert "ring" in response.json()["detail"]
 
@@ -151,13 +151,15 @@ def test_concurrent_uploads_all_arrive(client: TestClient, make_log: Any) -> Non
     assert sorted(names(client)) == [f"drive {i}" for i in range(6)]
 
 
-def test_a_form_without_a_file_or_no_form_at_all_is_told(client: TestClient) -> None:
+def test_a_form_without_a_file_or_no_form_at_all_is_told(shared_client: TestClient) -> None:
     assert (
         "file"
-        in client.post("/api/logs", data={"ring": "x"}, files={"other": b"y"}).json()["detail"]
+        in shared_client.post("/api/logs", data={"ring": "x"}, files={"other": b"y"}).json()[
+            "detail"
+        ]
     )
-    assert client.post("/api/logs", content=b"hello").status_code == 415
-    broken = client.post(
+    assert shared_client.post("/api/logs", content=b"hello").status_code == 415
+    broken = shared_client.post(
         "/api/logs",
         content=b"--x\r\nno header",
         headers={"content-type": "multipart/form-data; boundary=x"},
