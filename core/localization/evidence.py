@@ -1,9 +1,7 @@
 """From scores to evidence: how much a better fit is worth.
 
 Scores of places differ for two reasons: one is wrong, or the map is a little worse there (drift,
-furniture half seen). In a home of four equal rooms the true room scores lower than its twins in
-three steps of four, by up to a quarter of the best possible score. A difference of that size says
-little, then, and a larger one much: the gap x between the best score and that of a place counts as
+furniture half seen). A small difference therefore says little and a large one much: the gap x between the best score and that of a place counts as
 g(x) = x^3 / (x^2 + k^2), which is small below k and x above. Around a place, where the map's errors
 are shared, differences count in full, so that the position stays sharp.
 """
@@ -35,7 +33,7 @@ class EvidenceConfig:
     """
 
     temper: float = 0.2
-    indifference: float = 0.25
+    indifference: float = 0.1
 
 
 def discounted(gap: float, scale: float) -> float:
@@ -63,7 +61,8 @@ def evidence_of(
     best = max(float(peaks.max()), outside) if peaks.size else outside
     scale = max(config.indifference * best_possible, 1e-6)
     gap = np.maximum(best - _shared(peaks, blocks.corners, score.shape), 0)
-    worth = (gap**3 / (gap**2 + scale**2) - gap).astype(np.float32)
+    worth = gap**3 / (gap**2 + scale**2)
+    worth = (worth - gap).astype(np.float32)
     _apply(score, blocks.corners, worth, best, config.temper)
     return score, -config.temper * discounted(best - outside, scale)
 

@@ -65,7 +65,7 @@ def angle_transition(
     """
     off = wrap_angle(effective_angles(earlier, before, now) - predicted)
     density = normal_density(off, 0.0, config.sigma_angle)  # eq. (20), angles are cyclic
-    return np.einsum("ijk,kj->ij", density, came_from)
+    return np.asarray(np.einsum("ijk,kj->ij", density, came_from))
 
 
 def came_from(transition: FloatArray, earlier: FloatArray) -> FloatArray:

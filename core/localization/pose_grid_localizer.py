@@ -46,7 +46,7 @@ class PoseGridConfig:
 
     headings: int = 72
     unknown_at_start: float = 0.05
-    unknown_fit: float = 0.12
+    unknown_fit: float = 0.09
     coarse_sigma: float = 0.15
     ranges: ExpectedRangeConfig = field(default_factory=ExpectedRangeConfig)
     likelihood: SonarLikelihoodConfig = field(default_factory=SonarLikelihoodConfig)
