@@ -32,8 +32,8 @@ from core.mapping.reflection_points import (
 from core.mapping.scan_matching import (
     MatchingConfig,
     Submap,
+    points_from,
     points_of_stretch,
-    strong_points_from,
     submap,
 )
 from core.mapping.wall_direction import WallDirectionConfig, wall_direction, wrap_quarter
@@ -50,6 +50,7 @@ class DriftConfig:
         spacing: travel between two nodes (m).
         half_span: a submap reaches this many nodes, and a half, to both sides.
         apart: nodes at least this far apart are tried against each other.
+        wall_span: travel before and after a node from which its walls are seen (m).
         use_walls: the walls' directions count (the Manhattan assumption).
         kept_closure_weight: share of its information that a closure keeps while visits are aligned,
             which says the same more sharply.
@@ -59,6 +60,7 @@ class DriftConfig:
     spacing: float = 1.5
     half_span: int = 2
     apart: int = 6
+    wall_span: float = 5.0
     use_walls: bool = True
     kept_closure_weight: float = 0.05
     refinement: int = 2
@@ -107,7 +109,7 @@ def correct_drift(
     calibration = OdometryCalibration.of(graph.error, graph.error_sigma())
     coarse = through_nodes(log.odometry, length, nodes, graph.poses)
     progress(0.8, "aligning visits")
-    poses = _align(graph, log, coarse, length, config)
+    poses = _align(graph, log, coarse, length, config) if graph.links else coarse
     trajectory = _with_sigmas(log, length, graph, poses)
     progress(1.0, "aligning visits")
     return DriftResult(trajectory, calibration, tuple(closures), nodes)
@@ -128,11 +130,10 @@ def _follow(
     points = reflection_points(log, log.odometry, config.reflection)
     submaps: dict[int, Submap] = {}
     closures: list[Closure] = []
-    for newest in range(1, len(graph.nodes)):
-        graph.extend()
-        node = newest - config.half_span
-        if node < 1:
-            continue
+    last = len(graph.nodes) - 1
+    for node in range(last + 1):
+        while len(graph.poses) <= min(node + config.half_span, last):
+            graph.extend()
         graph.solve(2)
         local = without_systematic_error(log.odometry, graph.error)
         submaps[node] = _local_map(graph, points, local, length, node, config)
@@ -141,7 +142,7 @@ def _follow(
         closures += found
         if any(closure.accepted for closure in found):
             graph.solve(3)
-        progress(0.8 * newest / len(graph.nodes), "closing loops")
+        progress(0.8 * (node + 1) / len(graph.nodes), "closing loops")
     return closures
 
 
@@ -158,12 +159,26 @@ def _local_map(
     half = (config.half_span + 0.5) * config.spacing
     part = points_of_stretch(points, length, length[anchor] - half, length[anchor] + half)
     if config.use_walls:
-        direction = wall_direction(*strong_points_from(points, local, anchor, part), config.walls)
+        direction = _walls_at(points, local, length, anchor, config)
         if direction is not None:
             if not graph.walls:
                 graph.wall_heading = float(wrap_quarter(direction + graph.poses[node, 2]))
             graph.walls[node] = direction
     return submap(points, local, anchor, part, config.matching)
+
+
+def _walls_at(
+    points: ReflectionPoints,
+    local: FloatArray,
+    length: FloatArray,
+    anchor: int,
+    config: DriftConfig,
+) -> float | None:
+    """Direction of the walls around a scan in its robot's frame."""
+    part = points_of_stretch(
+        points, length, length[anchor] - config.wall_span, length[anchor] + config.wall_span
+    )
+    return wall_direction(*points_from(points, local, anchor, part), config.walls)
 
 
 def _align(
@@ -183,7 +198,6 @@ def _align(
     fine = PoseGraph(log.odometry, nodes, config.noise, config.graph)
     fine.poses = coarse[nodes].copy()
     fine.restart(graph.error, graph.wall_heading)
-    fine.walls = {int(number[node]): value for node, value in graph.walls.items()}
     fine.links = [
         Link(
             int(number[link.source]),
@@ -194,6 +208,12 @@ def _align(
         for link in graph.links
     ]
     points = reflection_points(log, coarse, config.reflection)
+    if config.use_walls:
+        seen = {
+            node: _walls_at(points, coarse, length, int(scan), config)
+            for node, scan in enumerate(nodes)
+        }
+        fine.walls = {node: value for node, value in seen.items() if value is not None}
     align(fine, points, coarse, length, config.alignment)
     return through_nodes(log.odometry, length, nodes, fine.poses)
 

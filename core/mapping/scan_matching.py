@@ -335,15 +335,13 @@ def points_of_stretch(
     return slice(int(np.searchsorted(at, start)), int(np.searchsorted(at, stop)))
 
 
-def strong_points_from(
+def points_from(
     points: ReflectionPoints, poses: FloatArray, anchor: int, part: slice
 ) -> tuple[FloatArray, FloatArray]:
-    """The strong ones of the points `part` and their unit views in the frame of the scan `anchor`."""
+    """The points `part` (M, 2) and their unit views (M, 2) in the frame of the scan `anchor`."""
     local = compose(inverse(poses[anchor]), poses[points.scan[part]])
     seen = transform_each(local, points.point[part])
-    view = unit(seen - transform_each(local, points.sonar[part]))
-    strong = points.strong[part]
-    return seen[strong], view[strong]
+    return seen, unit(seen - transform_each(local, points.sonar[part]))
 
 
 def points_in_world(points: ReflectionPoints, poses: FloatArray) -> tuple[FloatArray, FloatArray]:

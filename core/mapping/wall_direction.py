@@ -31,6 +31,8 @@ class WallDirectionConfig:
             that axis.
         distinct: angles at least this far off (rad) compete with the best one.
         max_ambiguity: the sharpness there may be at most this share of the best one.
+        thinning: one point is used for each cell of this side (m), so that an echo from a corner that
+            many scans repeat does not outweigh a wall that each scan sees elsewhere.
         min_points: fewer tell nothing.
     """
 
@@ -40,7 +42,8 @@ class WallDirectionConfig:
     facing: int = 4
     distinct: float = math.radians(10)
     max_ambiguity: float = 0.7
-    min_points: int = 40
+    thinning: float = 0.1
+    min_points: int = 20
 
 
 def wrap_quarter(angle: FloatArray | float) -> FloatArray:
@@ -59,17 +62,11 @@ def wall_direction(
         config: parameters.
     """
     config = config or WallDirectionConfig()
-    if len(points) < config.min_points:
-        return None
     angles = np.arange(-math.pi / 4, math.pi / 4, config.step)
-    centred = points - points.mean(axis=0)
-    bins = 2 * math.ceil(float(np.hypot(*centred.T).max()) / config.bin_width) + 5
-    reach = math.ceil(3 * config.smoothing / config.bin_width)
-    offset = np.arange(-reach, reach + 1) * config.bin_width / config.smoothing
-    kernel = np.exp(-0.5 * offset**2)
-    sharpness = np.asarray(
-        _projection_sharpness(centred, views, angles, config.bin_width, config.facing, bins, kernel)
-    )
+    found = _sharpness(points, views, angles, config)
+    if found is None:
+        return None
+    sharpness, _ = found
     best = int(sharpness.argmax())
     far = np.abs(wrap_quarter(angles - angles[best])) >= config.distinct
     if sharpness[far].max() > config.max_ambiguity * sharpness[best]:
@@ -78,6 +75,41 @@ def wall_direction(
     bend = low - 2 * sharpness[best] + high
     shift = 0.5 * (low - high) / bend if bend < 0 else 0.0
     return float(wrap_quarter(angles[best] + shift * config.step))
+
+
+def wall_sharpness(
+    points: FloatArray, views: FloatArray, config: WallDirectionConfig | None = None
+) -> float:
+    """How well all points of a drive lie on walls at right angles, per point; 0 without points.
+
+    Args:
+        points: (M, 2) reflecting points, metres.
+        views: (M, 2) unit vectors from the sonar to the point.
+        config: parameters.
+    """
+    config = config or WallDirectionConfig()
+    angles = np.arange(-math.pi / 4, math.pi / 4, config.step)
+    found = _sharpness(points, views, angles, config)
+    return 0.0 if found is None else float(found[0].max() / found[1])
+
+
+def _sharpness(
+    points: FloatArray, views: FloatArray, angles: FloatArray, config: WallDirectionConfig
+) -> tuple[FloatArray, int] | None:
+    """Sharpness of the projections at each angle, and the number of points that count."""
+    cells = np.floor(points / config.thinning).astype(np.int64)
+    _, kept = np.unique(cells, axis=0, return_index=True)
+    if len(kept) < config.min_points:
+        return None
+    centred = points[kept] - points[kept].mean(axis=0)
+    bins = 2 * math.ceil(float(np.hypot(*centred.T).max()) / config.bin_width) + 5
+    reach = math.ceil(3 * config.smoothing / config.bin_width)
+    offset = np.arange(-reach, reach + 1) * config.bin_width / config.smoothing
+    kernel = np.exp(-0.5 * offset**2)
+    sharpness = _projection_sharpness(
+        centred, views[kept], angles, config.bin_width, config.facing, bins, kernel
+    )
+    return np.asarray(sharpness), len(kept)
 
 
 @numba.njit(cache=True)
