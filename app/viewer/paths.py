@@ -7,8 +7,8 @@ import numpy as np
 from app.viewer.palette import Colour
 from core.geometry import FloatArray
 
-START_COLOUR: Colour = (255, 176, 122)
-END_COLOUR: Colour = (232, 78, 48)
+START_COLOUR: Colour = (250, 136, 74)
+END_COLOUR: Colour = (186, 32, 20)
 
 
 def thinned(poses: FloatArray, step: float) -> FloatArray:

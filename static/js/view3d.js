@@ -31,7 +31,7 @@ export function openView(model, frameBox) {
   frame.addEventListener("load", sendTheme);
   current = { model, frame, socket: null, tries: 0, timer: null };
   set({ connection: "connecting", selected: null, colours: {}, measuring: false, measured: null, view: "3d" });
-  frameBox.append(frame);
+  frameBox.prepend(frame); // below the strips
   connect(current);
 }
 
@@ -104,7 +104,8 @@ function connect(view) {
 function hear(message) {
   switch (message.type) {
     case "hello":
-      set({ layers: message.layers, colours: message.colours, selected: message.selected, picked: [] });
+      set({ colours: message.colours });
+      greet(message);
       handlers.onLabels?.(message.labels);
       break;
     case "ready":
@@ -131,6 +132,16 @@ function hear(message) {
       handlers.onDeleted?.(current.model);
       break;
   }
+}
+
+/** The first time the view says what this tab shows; after a lost connection the page does. */
+function greet({ layers, selected }) {
+  if (!current.greeted) set({ layers, selected, picked: [] });
+  else {
+    tell({ type: "layers", layers: get().layers });
+    select(get().selected, get().picked);
+  }
+  current.greeted = true;
 }
 
 function sendTheme() {

@@ -1,6 +1,6 @@
 """Makes `static/docs/screenshot.png` of the running product: python tests/browser/make_screenshot.py
 
-A drive through the paper's home is simulated, uploaded and modelled; the rooms get the names that the
+A drive through a furnished home is simulated, uploaded and modelled; the rooms get the names that the
 home has; Chromium takes the picture.
 """
 
@@ -35,9 +35,9 @@ SELECTED = "living room"
 def main() -> None:
     """Takes the picture."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--home", default="paper")
-    parser.add_argument("--seed", type=int, default=5)
-    parser.add_argument("--regions", type=int, default=7)
+    parser.add_argument("--home", default="random-17")
+    parser.add_argument("--seed", type=int, default=3)
+    parser.add_argument("--regions", type=int, default=9)
     parser.add_argument("--dark", action="store_true")
     parser.add_argument("--out", type=Path, default=TARGET)
     options = parser.parse_args()

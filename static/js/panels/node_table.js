@@ -75,7 +75,7 @@ function row(id) {
   input.addEventListener("blur", commit);
   const update = (node, doorCount, colour, isSelected) => {
     element.classList.toggle("selected", isSelected);
-    element.setAttribute("aria-selected", String(isSelected));
+    element.setAttribute("aria-current", String(isSelected));
     swatch.style.background = colour ?? "var(--line-strong)";
     const stored = node.label ?? "";
     if (stored !== saved || document.activeElement !== input) {
