@@ -22,14 +22,12 @@ from core.simulation.path_follower import Cruise, PathFollower
 from core.simulation.robot import SimulatedRobot
 from core.simulation.route_planner import RoutePlanner
 from core.simulation.sonar_model import SonarModel
-from core.simulation.tour import (
-    mapping_goals,
-    random_pose,
-    roaming_goals,
-)
+from core.simulation.tour import mapping_goals, random_pose, roaming_goals
 
 Tour = Literal["mapping", "localization", "spin"]
 TOURS: tuple[str, ...] = get_args(Tour)
+KIDNAP_CHOICES = 64
+"""Places that are looked at for one far enough away."""
 POSE_DECIMALS = 4
 """Poses are logged to 0.1 mm and 0.1 mrad."""
 
@@ -102,9 +100,12 @@ def simulate(
         config: other lengths and speeds.
 
     Raises:
-        UsageError: an unknown home, tour or odometry.
+        UsageError: an unknown home, tour or odometry, or a negative seed.
+        InputError: the robot is too large for the home.
     """
     config = config or DriveConfig()
+    if seed < 0:
+        raise UsageError(f"the seed {seed} is negative; take a number from 0")
     if tour not in TOURS:
         raise UsageError(f"tour {tour!r} is not one of {', '.join(TOURS)}")
     home = build_home(home) if isinstance(home, str) else home
@@ -220,8 +221,8 @@ class _Drive:
         """The incidents of the middle of the drive."""
         self._happened = True
         self._robot.odometry.jump(np.array([self._incidents.jump, 0.0, 0.0]))
-        while self._incidents.kidnap:
-            pose = random_pose(self._planner, self._rng)
-            if np.hypot(*(pose - self._robot.pose)[:2]) >= self._config.kidnap_apart:
-                self._robot.place(pose)
-                break
+        if self._incidents.kidnap:
+            poses = [random_pose(self._planner, self._rng) for _ in range(KIDNAP_CHOICES)]
+            apart = [float(np.hypot(*(pose - self._robot.pose)[:2])) for pose in poses]
+            far = [i for i, d in enumerate(apart) if d >= self._config.kidnap_apart]
+            self._robot.place(poses[far[0] if far else int(np.argmax(apart))])

@@ -90,14 +90,14 @@ class SimulatedRobot:
 
     def _may_stand(self, pose: FloatArray) -> bool:
         """Whether the robot's disc is clear at `pose`, or at least clearer than where it is."""
-        there = _clearance(self._outline.faces, pose[0], pose[1])
+        there = clearance_at(self._outline.faces, pose[0], pose[1])
         if there >= self.ring.robot_radius:
             return True
-        return bool(there >= _clearance(self._outline.faces, self.pose[0], self.pose[1]))
+        return bool(there >= clearance_at(self._outline.faces, self.pose[0], self.pose[1]))
 
 
 @njit(cache=True)
-def _clearance(faces: FloatArray, x: float, y: float) -> float:
+def clearance_at(faces: FloatArray, x: float, y: float) -> float:
     """Distance (m) from a point to the nearest face."""
     best = np.inf
     for i in range(len(faces)):

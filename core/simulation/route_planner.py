@@ -8,6 +8,7 @@ import numpy as np
 from scipy import ndimage
 from skimage.graph import MCP_Geometric
 
+from core.errors import InputError
 from core.geometry import BoolArray, FloatArray, IntArray
 from core.simulation.home import Home
 from core.simulation.home_truth import HomeTruth, cells_in, truth_of
@@ -16,12 +17,18 @@ CLEARANCE = 0.05
 """Free space kept around the robot's disc (m)."""
 COMFORT = 0.45
 """Clearance (m) from its centre at which the robot no longer cares how much more there is."""
+LEAST_FLOOR = 1.0
+"""A robot that can be on less floor than this (m2) is not driven."""
 NARROW_COST = 4.0
 """A way along the tightest passage counts this many times its length more."""
 
 
 class RoutePlanner:
-    """The cells of a home that a robot's centre may occupy, and routes through them."""
+    """The cells of a home that a robot's centre may occupy, and routes through them.
+
+    Raises:
+        InputError: the robot is too large to drive anywhere.
+    """
 
     def __init__(self, home: Home, robot_radius: float) -> None:
         self.truth: HomeTruth = truth_of(home)
@@ -34,6 +41,11 @@ class RoutePlanner:
         """(rows, cols) metres from each cell's centre to the nearest thing."""
         self.passable: BoolArray = largest_part(self.clearance >= robot_radius + CLEARANCE)
         """(rows, cols) where the robot's centre may be: the largest connected part."""
+        if self.passable.sum() * self.geometry.cell_area < LEAST_FLOOR:
+            raise InputError(
+                f"a robot of {robot_radius:g} m radius cannot drive in the home {home.name!r}: "
+                "take a ring with a smaller radius"
+            )
         tight = np.clip(1.0 - (self.clearance - robot_radius) / COMFORT, 0.0, 1.0)
         self._cost = np.where(self.passable, 1.0 + NARROW_COST * tight**2, -1.0)
 
