@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from fastapi import APIRouter, FastAPI
 
-from app.api import docs_page, edits, health, jobs, labels, logs, models
+from app.api import docs_page, edits, health, jobs, labels, localizations, logs, models
 from app.api.static_pages import STATIC_FOLDER, StaticPages
 from app.body_limit import BodyLimit
 from app.demo import load_samples
@@ -48,6 +48,7 @@ def create_app(settings: Settings) -> FastAPI:
         models.router,
         labels.router,
         edits.router,
+        localizations.router,
         jobs.router,
     ):
         api.include_router(router)

@@ -15,6 +15,7 @@ from app.settings import MEBIBYTE, Settings
 from app.storage.data_folder import DataFolder
 from app.storage.database import Database
 from app.storage.job_store import JobStore
+from app.storage.localization_store import LocalizationStore
 from app.storage.log_store import LogStore
 from app.storage.model_store import ModelStore
 from app.storage.sample_store import SampleStore
@@ -29,6 +30,7 @@ class Services:
     database: Database
     logs: LogStore
     models: ModelStore
+    localizations: LocalizationStore
     jobs: JobStore
     samples: SampleStore
     runner: JobRunner
@@ -64,6 +66,7 @@ async def open_services(settings: Settings, events: ModelEvents) -> AsyncIterato
         database,
         LogStore(database, folder),
         ModelStore(database, folder, events),
+        LocalizationStore(database, folder),
         job_store,
         SampleStore(database),
         JobRunner(job_store, settings.max_jobs),
@@ -74,6 +77,7 @@ async def open_services(settings: Settings, events: ModelEvents) -> AsyncIterato
     services.jobs.fail_unended(STOPPED)
     services.logs.remove_orphans()
     services.models.recover(STOPPED)
+    services.localizations.recover(STOPPED)
     try:
         await services.pool.warm_up()
         yield services

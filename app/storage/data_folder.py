@@ -22,7 +22,7 @@ def new_id() -> str:
 
 
 class DataFolder:
-    """`logs/ID/`, `models/ID/REVISION/`, `temp/`, the index `echorooms.sqlite` and a lock.
+    """Folders of logs, models (by revision), localizations, `temp/`, an SQLite index and a lock.
 
     Everything new is written into a folder under `temp/` and renamed to its place when it is whole.
     What a crash leaves in `temp/` is removed at the next start.
@@ -32,6 +32,7 @@ class DataFolder:
         self.root = root
         self.logs = root / "logs"
         self.models = root / "models"
+        self.localizations = root / "localizations"
         self.temp = root / "temp"
         self.database = root / "echorooms.sqlite"
         self._lock: IO[bytes] | None = None
@@ -46,7 +47,7 @@ class DataFolder:
             self.root.mkdir(parents=True, exist_ok=True)
             self._lock = _locked(self.root / "lock")
             shutil.rmtree(self.temp, ignore_errors=True)
-            for folder in (self.logs, self.models, self.temp):
+            for folder in (self.logs, self.models, self.localizations, self.temp):
                 folder.mkdir(exist_ok=True)
         except OSError as error:
             raise InputError(

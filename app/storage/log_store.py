@@ -16,7 +16,7 @@ from app.storage.database import Database
 from app.storage.log_files import NATIVE_FILE, REPORT_FILE
 from app.storage.records import LogRecord
 from app.storage.search import Sorting, matching, ordering
-from app.storage.tables import logs, model_logs, models
+from app.storage.tables import localizations, logs, model_logs, models
 
 SORTINGS = ("name", "created", "scans", "duration_s", "distance_m", "size_bytes")
 NAMED_MODELS = 3
@@ -74,7 +74,7 @@ class LogStore:
 
         Raises:
             NotFound: there is none.
-            Conflict: a model uses it.
+            Conflict: a model or a localization uses it.
         """
         self.get(log_id)
         with self._database.write() as connection:
@@ -84,7 +84,11 @@ class LogStore:
                 .where(model_logs.c.log_id == log_id)
                 .order_by(models.c.created)
             ).scalars()
-            names = list(users)
+            names = list(users) + list(
+                connection.execute(
+                    select(localizations.c.name).where(localizations.c.log_id == log_id)
+                ).scalars()
+            )
             if names:
                 raise Conflict(_in_use(names))
             connection.execute(delete(logs).where(logs.c.id == log_id))

@@ -33,7 +33,18 @@ _INITIAL = (
     "CREATE TABLE samples (file_name VARCHAR NOT NULL PRIMARY KEY)",
 )
 
-MIGRATIONS: tuple[tuple[str, ...], ...] = (_INITIAL,)
+_LOCALIZATIONS = (
+    """CREATE TABLE localizations (
+        id VARCHAR NOT NULL PRIMARY KEY, name VARCHAR NOT NULL, created FLOAT NOT NULL,
+        model_id VARCHAR NOT NULL REFERENCES models (id) ON DELETE CASCADE,
+        log_id VARCHAR NOT NULL REFERENCES logs (id) ON DELETE RESTRICT,
+        status VARCHAR NOT NULL, error TEXT, job_id VARCHAR, options TEXT NOT NULL,
+        steps INTEGER NOT NULL)""",
+    "CREATE INDEX localizations_of_model ON localizations (model_id)",
+    "CREATE INDEX localizations_of_log ON localizations (log_id)",
+)
+
+MIGRATIONS: tuple[tuple[str, ...], ...] = (_INITIAL, _LOCALIZATIONS)
 
 
 def migrate(connection: Connection) -> None:

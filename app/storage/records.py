@@ -66,6 +66,22 @@ class ModelRecord:
 
 
 @dataclass(frozen=True)
+class LocalizationRecord:
+    """A localization of a log in a model, finished or not; `steps` is how many there are."""
+
+    id: str
+    name: str
+    created: float
+    model_id: str
+    log_id: str
+    status: Status
+    error: str | None
+    job_id: str | None
+    options: Mapping[str, Any]
+    steps: int
+
+
+@dataclass(frozen=True)
 class JobRecord:
     """A job. `subject_id` names what it makes: the model, say."""
 

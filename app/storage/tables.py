@@ -46,6 +46,21 @@ model_logs = Table(
     Column("position", Integer, nullable=False),
 )
 
+localizations = Table(
+    "localizations",
+    metadata,
+    Column("id", String, primary_key=True),
+    Column("name", String, nullable=False),
+    Column("created", Float, nullable=False),
+    Column("model_id", ForeignKey("models.id", ondelete="CASCADE"), nullable=False),
+    Column("log_id", ForeignKey("logs.id", ondelete="RESTRICT"), nullable=False),
+    Column("status", String, nullable=False),
+    Column("error", Text),
+    Column("job_id", String),
+    Column("options", Text, nullable=False),
+    Column("steps", Integer, nullable=False),
+)
+
 jobs = Table(
     "jobs",
     metadata,

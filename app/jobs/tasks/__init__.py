@@ -21,6 +21,7 @@ TASKS = {
     "model_log": "app.jobs.tasks.model_log",
     "check_map": "app.jobs.tasks.check_map",
     "model_map": "app.jobs.tasks.model_map",
+    "localize": "app.jobs.tasks.localize",
 }
 
 
