@@ -35,11 +35,8 @@ class View:
     fov: float
 
 
-Bounds = tuple[float, float, float, float]
-
-
-def fit_3d(bounds: Bounds, aspect: float, config: CameraConfig | None = None) -> View:
-    """The view from above and the side that shows all of `bounds` (x0, y0, x1, y1)."""
+def fit_3d(outline: FloatArray, aspect: float, config: CameraConfig | None = None) -> View:
+    """The view from above and the side that shows everything within `outline` (K, 2)."""
     config = config or CameraConfig()
     towards = -np.array(
         [
@@ -49,7 +46,7 @@ def fit_3d(bounds: Bounds, aspect: float, config: CameraConfig | None = None) ->
         ]
     )
     return _fit(
-        _corners(bounds, config.headroom),
+        _corners(outline, (0.0, config.headroom)),
         towards,
         np.array([0, 0, 1.0]),
         config.fov_3d,
@@ -58,12 +55,12 @@ def fit_3d(bounds: Bounds, aspect: float, config: CameraConfig | None = None) ->
     )
 
 
-def fit_top(bounds: Bounds, aspect: float, config: CameraConfig | None = None) -> View:
+def fit_top(outline: FloatArray, aspect: float, config: CameraConfig | None = None) -> View:
     """The view straight down, +y up."""
     config = config or CameraConfig()
     down = np.array([0.0, 1e-4, -1.0])
     return _fit(
-        _corners(bounds, 0.0),
+        _corners(outline, (0.0,)),
         down / np.linalg.norm(down),
         np.array([0, 0, 1.0]),
         config.fov_top,
@@ -72,10 +69,10 @@ def fit_top(bounds: Bounds, aspect: float, config: CameraConfig | None = None) -
     )
 
 
-def farthest(view: View, bounds: Bounds) -> float:
+def farthest(view: View, outline: FloatArray) -> float:
     """A far plane and zoom-out limit (m) that never clips the home seen from `view`."""
     distance = float(np.linalg.norm(np.subtract(view.position, view.look_at)))
-    return 6.0 * distance + 4.0 * max(bounds[2] - bounds[0], bounds[3] - bounds[1])
+    return 6.0 * distance + 4.0 * float(np.ptp(outline, axis=0).max())
 
 
 def blend(a: View, b: View, share: float) -> View:
@@ -106,7 +103,7 @@ def _fit(
     upward = np.cross(right, towards)
     half_height = np.tan(fov / 2) * fill
     half_width = half_height * max(aspect, 0.2)
-    centre = corners.mean(axis=0)
+    centre = (corners.min(axis=0) + corners.max(axis=0)) / 2
     for _ in range(4):
         offset = corners - centre
         x, y, depth = offset @ right, offset @ upward, offset @ towards
@@ -123,9 +120,11 @@ def _fit(
     return View(_triple(centre - towards * distance), _triple(centre), _triple(up), fov)
 
 
-def _corners(bounds: Bounds, height: float) -> FloatArray:
-    x0, y0, x1, y1 = bounds
-    return np.array([(x, y, z) for x in (x0, x1) for y in (y0, y1) for z in (0.0, height)])
+def _corners(outline: FloatArray, heights: tuple[float, ...]) -> FloatArray:
+    """(K * heights, 3): the outline at each of the heights."""
+    return np.concatenate(
+        [np.column_stack((outline, np.full(len(outline), height))) for height in heights]
+    )
 
 
 def _lerp(

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
 import numpy as np
+from scipy.spatial import ConvexHull
 
 from app.viewer.cell_tiles import Tiles, cell_tiles
 from app.viewer.contour_mesh import Extrusion, extrude
@@ -73,14 +74,14 @@ class Drawing:
     """What the scene consists of, in world metres.
 
     Attributes:
-        bounds: (x0, y0, x1, y1) of everything known.
+        outline: (K, 2) convex hull of everything that is drawn.
         floors: pictures of the themes "light" and "dark"; `floor_margin` metres wider than the grid.
         edges, stems, path: (M, 2, 3) line segments.
         doors: (E, 3).
     """
 
     geometry: GridGeometry
-    bounds: tuple[float, float, float, float]
+    outline: FloatArray
     display: DisplayGrid
     regions: IntArray
     floors: Mapping[str, Floor]
@@ -121,7 +122,7 @@ def draw(
     margin_cells = int(np.ceil(config.floor.margin / grid.geometry.resolution))
     return Drawing(
         geometry=grid.geometry,
-        bounds=_bounds(display, model),
+        outline=_outline(display, model),
         display=display,
         regions=model.regions,
         floors=floors,
@@ -158,13 +159,16 @@ def relabelled(drawing: Drawing, labels: Mapping[str, str | None]) -> Drawing:
     return replace(drawing, nodes=nodes)
 
 
-def _bounds(display: DisplayGrid, model: Model) -> tuple[float, float, float, float]:
-    """Corner to corner of what is drawn; the whole grid while nothing is."""
+def _outline(display: DisplayGrid, model: Model) -> FloatArray:
+    """Convex hull of what is drawn, of the whole grid while nothing is."""
     geometry = model.grid.geometry
-    cells = np.argwhere(display.floor | display.solid)
-    if len(cells) == 0:
-        cells = np.array([[0, 0], [geometry.shape[0] - 1, geometry.shape[1] - 1]])
-    low, high = cells.min(axis=0) - 0.5, cells.max(axis=0) + 0.5
-    corners = geometry.world_of(np.array([low, high, [low[0], high[1]], [high[0], low[1]]]))
-    (x0, y0), (x1, y1) = corners.min(axis=0), corners.max(axis=0)
-    return float(x0), float(y0), float(x1), float(y1)
+    drawn = display.floor | display.solid
+    if not drawn.any():
+        drawn = np.ones(geometry.shape, bool)
+    rows = np.flatnonzero(drawn.any(axis=1))
+    first = drawn[rows].argmax(axis=1)
+    last = drawn.shape[1] - 1 - drawn[rows, ::-1].argmax(axis=1)
+    ends = np.concatenate((np.column_stack((rows, first)), np.column_stack((rows, last))))
+    corners = np.array([(-0.5, -0.5), (-0.5, 0.5), (0.5, -0.5), (0.5, 0.5)])
+    cells = (ends[:, None] + corners).reshape(-1, 2)
+    return geometry.world_of(cells[ConvexHull(cells).vertices])

@@ -126,7 +126,7 @@ class OpenView:
 
     def _place_first_camera(self) -> None:
         """Where a browser looks before its tab's own camera is set."""
-        view = fit_3d(self.drawing.bounds, 1.4)
+        view = fit_3d(self.drawing.outline, 1.4)
         first = self.server.initial_camera
         first.position, first.look_at = view.position, view.look_at
         first.fov = view.fov

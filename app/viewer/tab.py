@@ -106,7 +106,7 @@ class Tab:
         if state.camera is None:
             self._stand_at_standard(self.scene)
         else:
-            far = farthest(self._standard(self.scene).view, drawing.bounds)
+            far = farthest(self._standard(self.scene).view, drawing.outline)
             self.scene.stand_at(state.camera, far)
         self.camera_moved()
         self.tell_ready()
@@ -216,7 +216,7 @@ class Tab:
 
     async def _travel_to_standard(self, scene: TabScene) -> None:
         start, target = camera_view(scene.client), self._standard(scene).view
-        far = farthest(target, scene.drawing.bounds)
+        far = farthest(target, scene.drawing.outline)
         for step in range(1, _TRAVEL_STEPS):
             scene.stand_at(blend(start, target, step / _TRAVEL_STEPS), far)
             await asyncio.sleep(_TRAVEL_TIME / _TRAVEL_STEPS)
@@ -225,12 +225,12 @@ class Tab:
 
     def _stand_at_standard(self, scene: TabScene) -> None:
         self._fitted = self._standard(scene)
-        scene.stand_at(self._fitted.view, farthest(self._fitted.view, scene.drawing.bounds))
+        scene.stand_at(self._fitted.view, farthest(self._fitted.view, scene.drawing.outline))
 
     def _standard(self, scene: TabScene) -> Fitted:
         aspect = scene.client.camera.aspect
         fit = fit_top if self.state.view == "top" else fit_3d
-        return Fitted(fit(scene.drawing.bounds, aspect), aspect)
+        return Fitted(fit(scene.drawing.outline, aspect), aspect)
 
     def _settle(self) -> None:
         """After the camera or the picture's size has changed: fits again, lays labels out."""

@@ -30,8 +30,9 @@ def test_an_edge_bends_through_its_doorway(drawing):
     ]
 
 
-def test_the_bounds_enclose_what_is_known(drawing):
-    assert drawing.bounds == pytest.approx((-1.0, 2.0, 3.2, 4.2), abs=0.06)
+def test_the_outline_encloses_what_is_drawn(drawing):
+    assert drawing.outline.min(axis=0) == pytest.approx((-1.0, 2.0), abs=0.06)
+    assert drawing.outline.max(axis=0) == pytest.approx((3.2, 4.2), abs=0.06)
 
 
 def test_the_pictures_have_the_regions_colours_and_are_clear_where_nothing_is(drawing, two_rooms):
@@ -94,7 +95,8 @@ def test_a_map_of_which_nothing_is_known_is_drawn():
     nothing = np.zeros(geometry.shape, np.int64)
     grid = OccupancyGrid(geometry, nothing.astype(np.uint8))
     drawing = draw(Model(grid, nothing, nothing, TopologicalMap((), (), ()), None, {}))
-    assert drawing.bounds == pytest.approx((0.0, 0.0, 0.3, 0.2))
+    assert drawing.outline.min(axis=0) == pytest.approx((0.0, 0.0))
+    assert drawing.outline.max(axis=0) == pytest.approx((0.3, 0.2))
 
 
 def test_a_drive_is_thinned_but_keeps_its_ends():

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from app.viewer.camera import fit_top
 from app.viewer.label_layout import LabelBox, visible_labels
 
-VIEW = fit_top((0.0, 0.0, 10.0, 8.0), 1.25)
+VIEW = fit_top(np.array([(0.0, 0.0), (10.0, 8.0)]), 1.25)
 
 
 def shown(*labels: LabelBox) -> list[bool]:
