@@ -46,6 +46,6 @@ def _rays(occupied: BoolArray, row: float, col: float, cap: float) -> FloatArray
             i = int(math.floor(row + 0.5 * half * d_row + 0.5))
             j = int(math.floor(col + 0.5 * half * d_col + 0.5))
             if 0 <= i < occupied.shape[0] and 0 <= j < occupied.shape[1] and occupied[i, j]:
-                out[degree] = min(0.5 * half, cap)
+                out[degree] = min(math.hypot(i - row, j - col), cap)
                 break
     return out
