@@ -3,7 +3,8 @@
 Scores of places differ for two reasons: one is wrong, or the map is a little worse there (drift,
 furniture half seen). A small difference therefore says little and a large one much: the gap x
 between the best score and that of a place counts as g(x) = x^3 / (x^2 + k^2), which is small below
-k and x above. Around a place, where the map's errors are shared, differences count in full, so that the position stays sharp.
+k and x above. Around a place, where the map's errors are shared, differences count in full, so that
+the position stays sharp.
 """
 
 from __future__ import annotations
