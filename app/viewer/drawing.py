@@ -44,6 +44,9 @@ class DrawingConfig:
 
     wall_height: float = 1.15
     furniture_height: float = 0.45
+    ordinary_extent: float = 16.0
+    """Diagonal of a home in which the marks have their own size; larger ones get larger marks."""
+    most_mark_scale: float = 3.0
     floor: FloorConfig = field(default_factory=FloorConfig)
     graph: GraphConfig = field(default_factory=GraphConfig)
 
@@ -75,6 +78,7 @@ class Drawing:
 
     Attributes:
         outline: (K, 2) convex hull of everything that is drawn.
+        mark_scale: how much thicker marks (nodes, lines) are than in an ordinary home.
         floors: pictures of the themes "light" and "dark"; `floor_margin` metres wider than the grid.
         edges, stems, path: (M, 2, 3) line segments.
         doors: (E, 3).
@@ -82,6 +86,7 @@ class Drawing:
 
     geometry: GridGeometry
     outline: FloatArray
+    mark_scale: float
     display: DisplayGrid
     regions: IntArray
     floors: Mapping[str, Floor]
@@ -117,12 +122,16 @@ def draw(
         )
         for name, theme in (("light", LIGHT), ("dark", DARK))
     }
+    outline = _outline(display, model)
+    extent = float(np.linalg.norm(np.ptp(outline, axis=0)))
+    scale_of_marks = float(np.clip(extent / config.ordinary_extent, 1.0, config.most_mark_scale))
     centres = node_centres(topology, config.graph)
     poses = model.trajectory.poses if model.trajectory is not None else np.zeros((0, 3))
     margin_cells = int(np.ceil(config.floor.margin / grid.geometry.resolution))
     return Drawing(
         geometry=grid.geometry,
-        outline=_outline(display, model),
+        outline=outline,
+        mark_scale=scale_of_marks,
         display=display,
         regions=model.regions,
         floors=floors,
@@ -134,7 +143,7 @@ def draw(
                 node.id,
                 node.region,
                 (float(x), float(y), float(z)),
-                float(radius),
+                float(radius) * scale_of_marks,
                 node.area_m2,
                 colours[node.id],
                 node.label,

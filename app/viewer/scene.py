@@ -69,13 +69,14 @@ class ModelScene:
 
     def draw(self, drawing: Drawing) -> None:
         """Draws, or draws anew. Encodes pictures: call it in a thread."""
-        canvas = self._canvas
+        canvas, size = self._canvas, drawing.mark_scale
         self._floor(drawing)
         self._walls(drawing)
         self._graph(drawing)
         path = f"/{PATH}/line"
         self._keep(
-            path, canvas.lines(path, drawing.path, path_colours(len(drawing.path)), PATH_WIDTH)
+            path,
+            canvas.lines(path, drawing.path, path_colours(len(drawing.path)), PATH_WIDTH * size),
         )
         cells, tiles = f"/{CELLS}/tiles", drawing.tiles
         self._keep(
@@ -133,14 +134,15 @@ class ModelScene:
 
     def _graph(self, drawing: Drawing) -> None:
         canvas, nodes, count = self._canvas, f"/{GRAPH}/nodes", len(drawing.doors)
+        size = drawing.mark_scale
         for theme in THEMES:
             edges, stems, doors = (
                 f"/{GRAPH}/{theme}/{part}" for part in ("edges", "stems", "doors")
             )
-            self._keep(edges, canvas.lines(edges, drawing.edges, EDGES[theme], EDGE_WIDTH))
-            self._keep(stems, canvas.lines(stems, drawing.stems, STEMS[theme], STEM_WIDTH))
+            self._keep(edges, canvas.lines(edges, drawing.edges, EDGES[theme], EDGE_WIDTH * size))
+            self._keep(stems, canvas.lines(stems, drawing.stems, STEMS[theme], STEM_WIDTH * size))
             bends = [EDGES[theme]] * count
-            sizes = np.full(count, DOOR_RADIUS)
+            sizes = np.full(count, DOOR_RADIUS * size)
             self._keep(doors, canvas.instances(doors, sphere(1), drawing.doors, sizes, bends))
         spheres = canvas.instances(
             nodes,

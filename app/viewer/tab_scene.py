@@ -14,7 +14,7 @@ from app.viewer.drawing import Drawing
 from app.viewer.graph_shapes import circle, unit_box
 from app.viewer.label_layout import LabelBox, visible_labels
 from app.viewer.layers import BARS, LABELS, ROBOT, LayerSwitch
-from app.viewer.palette import Colour
+from app.viewer.palette import Colour, linear
 from app.viewer.picking import region_outline
 from app.viewer.scene import label_position, label_text, sphere
 from core.geometry import FloatArray
@@ -28,6 +28,7 @@ LIGHTS: Mapping[str, tuple[float, float]] = {"light": (2.0, 1.7), "dark": (1.05,
 SUN = (-4.0, -7.0, 10.0)
 BAR_HEIGHT, BAR_WIDTH, BAR_OFFSET = 1.8, 0.26, 0.42
 OUTLINE_HEIGHT, OUTLINE_WIDTH, RING_WIDTH, MEASURE_HEIGHT = 0.06, 0.08, 0.06, 0.08
+MEASURE_RADIUS = 0.08
 """Metres."""
 RING_SHARE = 1.55
 """Of the selection's ring against its sphere."""
@@ -69,8 +70,12 @@ class TabScene:
             return
         outlines = [region_outline(self.drawing, node.region, OUTLINE_HEIGHT) for node in nodes]
         rings = [circle(node.centre, node.radius * RING_SHARE) for node in nodes]
-        self._canvas.lines("/selection/outline", np.concatenate(outlines), SELECTED, OUTLINE_WIDTH)
-        self._canvas.lines("/selection/ring", np.concatenate(rings), SELECTED, RING_WIDTH)
+        size = self.drawing.mark_scale
+        for name, lines, width in (
+            ("/selection/outline", outlines, OUTLINE_WIDTH),
+            ("/selection/ring", rings, RING_WIDTH),
+        ):
+            self._canvas.lines(name, np.concatenate(lines), SELECTED, width * size)
 
     def measure(self, points: Sequence[tuple[float, float]]) -> None:
         """Shows none, one or two measured points, the latter with their distance."""
@@ -79,7 +84,11 @@ class TabScene:
             return
         flat = np.array([(x, y, MEASURE_HEIGHT) for x, y in points])
         self._canvas.instances(
-            "/measure/ends", sphere(2), flat, np.full(len(flat), 0.08), [MEASURE] * len(flat)
+            "/measure/ends",
+            sphere(2),
+            flat,
+            np.full(len(flat), MEASURE_RADIUS * self.drawing.mark_scale),
+            [MEASURE] * len(flat),
         )
         if len(flat) == 2:
             self._canvas.lines("/measure/line", flat[None], MEASURE, 3.0, on_screen=True)
@@ -100,7 +109,14 @@ class TabScene:
         scales = np.full((len(nodes), 3), BAR_WIDTH)
         scales[:, 2] = np.maximum(share * BAR_HEIGHT, 0.02)
         colours = [BEST_BAR if index == best else BAR for index in range(len(nodes))]
-        self._canvas.instances(f"/{BARS}/boxes", unit_box(), feet, scales, colours)
+        name = f"/{BARS}/boxes"
+        bars = self._canvas.scene.get_handle_by_name(name)
+        if isinstance(bars, viser.BatchedMeshHandle) and _same(bars.batched_positions, feet):
+            with self.client.atomic():
+                bars.batched_scales = scales.astype(np.float32)
+                bars.batched_colors = np.rint(linear(colours)).astype(np.uint8)
+        else:
+            self._canvas.instances(name, unit_box(), feet, scales, colours)
 
     def set_robot(self, pose: Sequence[float] | None, radius: float = 0.22) -> None:
         """The robot at a pose (x, y, heading), or nowhere."""
@@ -175,3 +191,8 @@ class TabScene:
             cast_shadow=False,
             receive_shadow=False,
         )
+
+
+def _same(a: FloatArray, b: FloatArray) -> bool:
+    """Whether two lists of points are the same points."""
+    return a.shape == b.shape and bool(np.allclose(a, b))

@@ -202,6 +202,8 @@ def test_probabilities_are_bars_in_one_tab(server):
             view.wait_for(lambda m: m.get("name") == "/lights/sun")
         server.call(server.hub.set_probabilities, "m1", ONE, {"west": 0.25, "east": 0.75})
         mine.wait_for(lambda m: m.get("name") == "/bars/boxes")
+        server.call(server.hub.set_probabilities, "m1", ONE, {"west": 0.5, "east": 0.5})
+        mine.wait_for(lambda m: "batched_scales" in (m.get("updates") or {}))
         server.call(server.hub.set_robot, "m1", ONE, (0.5, 3.0, 1.0))
         mine.wait_for(lambda m: m.get("name") == "/robot/body/hull")
         assert "/bars/boxes" not in names(other.drain())
