@@ -12,7 +12,7 @@ export async function edit(change, picks = (model, before) => get().selected) {
   if (!answer) return false;
   take(answer);
   const node = picks(answer, before);
-  if (get().model?.id === answer.id && node !== get().selected) select(node);
+  if (get().model?.id === answer.id) select(node);
   announce(answer);
   return true;
 }
@@ -20,7 +20,7 @@ export async function edit(change, picks = (model, before) => get().selected) {
 /** Says what the last edit was, with a way back as long as nothing else has happened. */
 export function announce(model) {
   const text = sentence(model.last_edit);
-  if (text) toast(text, { action: { label: "Undo", run: () => undo(model.revision) } });
+  if (text) toast(text, { action: { label: "Undo", run: () => undo(model.revision) }, seconds: 8 });
 }
 
 export function undo(revision) {
@@ -37,7 +37,9 @@ async function turn(possible, send, words) {
   const answer = await attempt(() => send(before));
   if (!answer) return;
   take(answer);
-  if (get().selected && !answer.nodes.some((node) => node.id === get().selected)) select(null);
+  const known = new Set(answer.nodes.map((node) => node.id));
+  const { selected, picked } = get();
+  if (![selected, ...picked].every((id) => id === null || known.has(id))) select(known.has(selected) ? selected : null);
   toast(words(before));
 }
 

@@ -48,6 +48,23 @@ def test_rooms_with_only_a_wall_between_them_differ():
     assert all(colours[f"n{i}"] != colours[f"n{i + 1}"] for i in range(23))
 
 
+def test_an_edit_recolours_no_other_node():
+    before = node_colours(chain(8), NO_REGIONS)
+    merged = chain(8)
+    merged = replace(merged, nodes=merged.nodes[:3] + merged.nodes[4:], edges=merged.edges[4:])
+    after = node_colours(merged, NO_REGIONS, before)
+    assert after == {node: colour for node, colour in before.items() if node != "n3"}
+    again = node_colours(chain(8), NO_REGIONS, after)
+    assert {node: again[node] for node in after} == after
+
+
+def test_of_two_neighbours_that_had_one_hue_only_one_keeps_it():
+    pair = chain(2)
+    after = node_colours(pair, NO_REGIONS, {"n0": PALETTE[3], "n1": PALETTE[3]})
+    assert PALETTE[3] in after.values()
+    assert after["n0"] != after["n1"]
+
+
 def test_naming_a_node_recolours_nothing():
     topology = chain(9)
     named = replace(
