@@ -7,7 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from core.geometry import IntArray, travelled, wrap_angle
-from core.mapping import OccupancyGrid
+from core.mapping.map_result import MapResult
 from core.pipeline.mapper import MappingOptions, map_log
 from core.sensing import RobotLog, Trajectory
 
@@ -27,13 +27,27 @@ def stops_along(trajectory: Trajectory, step: float) -> IntArray:
 
 
 def maps_along(
-    log: RobotLog, trajectory: Trajectory, options: MappingOptions, stops: IntArray
-) -> Iterator[tuple[int, OccupancyGrid]]:
-    """The map of the scans so far at each stop, made of key scans only."""
-    keys = key_scans(trajectory)
+    log: RobotLog,
+    trajectory: Trajectory,
+    options: MappingOptions,
+    stops: IntArray,
+    window: float | None = None,
+) -> Iterator[tuple[int, MapResult]]:
+    """The map at each stop, made of key scans only.
+
+    Args:
+        log: the drive.
+        trajectory: its poses.
+        options: mapping method and resolution.
+        stops: indices of scans.
+        window: metres of travel that a local map holds; None takes the whole drive so far.
+    """
+    keys, driven = key_scans(trajectory), travelled(trajectory.poses)
     for stop in stops:
-        so_far = keys[keys <= stop]
-        yield int(stop), map_log(log.taken(so_far), trajectory.taken(so_far), options).grid
+        recent = keys[keys <= stop]
+        if window is not None:
+            recent = recent[driven[recent] >= driven[stop] - window]
+        yield int(stop), map_log(log.taken(recent), trajectory.taken(recent), options)
 
 
 def key_scans(trajectory: Trajectory) -> IntArray:

@@ -18,6 +18,7 @@ from core.pipeline.odometry import OdometryChoice
 from core.pipeline.region_finder import (
     FoundRegions,
     along_the_drive,
+    along_the_drive_as_in_paper,
     given_number,
     large_parts,
     number_found,
@@ -66,6 +67,8 @@ class ModellingOptions:
             )
         if self.regions is not None and self.regions < 1:
             raise InputError(f"{self.regions} regions cannot be made: choose a number from 1")
+        if self.method == "paper" and self.mode == "offline" and self.regions is None:
+            raise UsageError("the paper's offline method needs the number of regions: give one")
         MappingOptions(self.mapping, self.resolution)
 
 
@@ -102,7 +105,8 @@ def model_log(
     elif options.mode == "offline":
         found = number_found(grid, floor, options.seed, rest)
     else:
-        found = along_the_drive(log, trajectory, grid, floor, mapping, rest)
+        extract = along_the_drive if options.method == "default" else along_the_drive_as_in_paper
+        found = extract(log, trajectory, grid, floor, mapping, rest)
     source = {
         "log": whole.name,
         "scans": len(whole),
