@@ -26,12 +26,17 @@ class CutConfig:
             radius stands on (the paper's robot).
         farthest_extension_m: how far an end inside the region is drawn on, straight, to its border;
             nobody clicks exactly on a wall.
+        nearest_border_m: where there is none straight on, how far beside the end it may be (the
+            corner of a wall that was just missed).
         farthest_point_m: a coordinate beyond it cannot be meant.
+        same_point_m: points nearer than this are one.
     """
 
     smallest_piece_m2: float = 0.15
     farthest_extension_m: float = 1.0
+    nearest_border_m: float = 0.5
     farthest_point_m: float = 1e6
+    same_point_m: float = 1e-3
 
 
 def cut_region(
@@ -77,7 +82,7 @@ def _check(line: FloatArray, name: str, config: CutConfig) -> None:
         raise InputError("line: give at least two points [x, y]")
     if not np.isfinite(line).all() or np.abs(line).max() > config.farthest_point_m:
         raise InputError("line: a point is not in this world")
-    if (line == line[0]).all():
+    if np.hypot(*(line - line[0]).T).max() < config.same_point_m:
         raise InputError(f"line: all its points are one; draw it across {name}")
 
 
@@ -126,11 +131,14 @@ def _why_not(areas: FloatArray, ends_inside: bool, name: str, config: CutConfig)
 def _extended(
     line: FloatArray, window: BoolArray, geometry: GridGeometry, low: IntArray, config: CutConfig
 ) -> tuple[bool, FloatArray]:
-    """The line with ends inside the region drawn on to its border, in cells of the window (n, 2).
+    """The line with ends inside the region brought to its border, in cells of the window (n, 2).
 
     Also whether an end stayed inside all the same.
     """
-    points = [line[0], *(b for a, b in pairwise(line) if (a != b).any())]
+    points = [line[0]]
+    for point in line[1:]:
+        if np.hypot(*(point - points[-1])) >= config.same_point_m:
+            points.append(point)
     inside = False
     for end, before in ((0, 1), (-1, -2)):
         direction = points[end] - points[before]
@@ -139,8 +147,13 @@ def _extended(
         travel = np.arange(0, reach + STEP, STEP)[:, None] * geometry.resolution
         path = points[end] + travel * direction
         outside = np.flatnonzero(~_within(window, geometry.cell_of(path) - low))
+        border = geometry.world_of(np.argwhere(~window) + low)
+        beside = np.hypot(*(border - points[end]).T)
         if len(outside):
             points[end] = path[outside[0]]
+        elif beside.min() <= config.nearest_border_m:
+            corner = border[int(beside.argmin())]
+            points = [corner, *points] if end == 0 else [*points, corner]
         else:
             inside = True
     return inside, (geometry.cell_of(np.array(points)) - low).astype(float)

@@ -109,6 +109,15 @@ def test_a_line_that_ends_near_the_walls_is_drawn_on_to_them(home: Model) -> Non
     assert len(split.topology.nodes) == 5
 
 
+def test_a_line_that_just_misses_a_corner_is_brought_to_it(home: Model) -> None:
+    """A wall reaches 1 m into region 4; the line from below ends 0.2 m beside the wall's end."""
+    regions = home.regions.copy()
+    regions[11:21, 53] = 0
+    model = Model(home.grid, regions, regions, home.topology, None, {})
+    split = split_node(model, node_id(home, 4), [(5.6, 0.0), (5.6, 0.95)])
+    assert split.topology.nodes[-1].area_m2 == pytest.approx(1.65, abs=0.15)
+
+
 def test_a_bent_line_cuts_off_a_corner(home: Model) -> None:
     split = split_node(home, node_id(home, 4), [(5.3, 0.0), (5.3, 1.1), (6.4, 1.1)])
     assert split.topology.nodes[-1].area_m2 == pytest.approx(1.0, abs=0.15)
@@ -121,7 +130,7 @@ def test_a_bent_line_cuts_off_a_corner(home: Model) -> None:
         ([(100.0, 100.0), (200.0, 100.0)], "misses"),
         ([(6.25, 0.0), (6.15, 2.2)], "leaves a piece of 0.10 m² of Region 4, less than 0.15 m²"),
         ([(4.35, 0.0), (4.35, 2.2)], "only touches its border"),
-        ([(6.0, 0.0), (6.0, 0.6)], "ends inside Region 4, more than 1 m from its border"),
+        ([(5.3, 0.0), (5.3, 0.6)], "ends inside Region 4, more than 1 m from its border"),
         (
             [(4.8, -0.5), (4.8, 2.5), (5.8, 2.5), (5.8, -0.5)],
             "into 3 pieces, not two",
@@ -141,6 +150,7 @@ def test_a_line_that_does_not_part_a_node_in_two_says_why(
         [],
         [(1.0, 1.0)],
         [(1.0, 1.0)] * 3,
+        [(1.0, 0.0), (1.0, 1e-320)],
         [(np.nan, 0), (1, 1)],
         [(1e9, 0), (1, 1)],
         [(1, 2, 3)] * 2,
