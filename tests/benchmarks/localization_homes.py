@@ -105,16 +105,19 @@ def main() -> None:
                 times[name] += seconds[1:]
                 if kind == "kidnap":
                     recovered[name].append(converged_after(drive, kidnap_time(log)))
-        print(f"random-{seed} done", flush=True)
-    for name in methods:
-        for kind, drives in found[name].items():
+        print(f"after {number + 1} homes", flush=True)
+        print_table(found, recovered, times)
+
+
+def print_table(
+    found: dict[str, Drives], recovered: dict[str, list[float]], times: dict[str, list[float]]
+) -> None:
+    for name, kinds in found.items():
+        for kind, drives in kinds.items():
             again = np.sort(recovered[name]).round(1).tolist()
-            print(
-                row(
-                    name, kind, drives, f"  right again after {again} m" if kind == "kidnap" else ""
-                )
-            )
-        print(f"{name:10s} {np.median(times[name]) * 1e3:.0f} ms a step (median)")
+            extra = f"  right again after {again} m" if kind == "kidnap" else ""
+            print(row(name, kind, drives, extra))
+        print(f"{name:10s} {np.median(times[name]) * 1e3:.0f} ms a step (median)", flush=True)
 
 
 if __name__ == "__main__":
