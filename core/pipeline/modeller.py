@@ -24,7 +24,7 @@ from core.pipeline.region_finder import (
     number_found,
 )
 from core.progress import Progress, no_progress, part_of
-from core.segmentation.connected import largest_component
+from core.segmentation.connected import largest_component, reachable_floor
 from core.sensing import RobotLog, Trajectory
 from core.topology import Model
 from core.topology.labels import carried_labels, room_image
@@ -33,6 +33,8 @@ from core.topology.topology_of import topology_of
 Mode = Literal["autonomous", "offline"]
 DRIFT_SHARE, MAPPING_SHARE, CUTTING_SHARE = 0.35, 0.45, 0.95
 """Shares of the time after which trajectory, map and regions are there, for the progress."""
+PASSAGE = 0.3
+"""Metres: free space that hangs on the rest by less is a leak of the map, not a place to go to."""
 SMALLEST_PART = 1.0
 """Square metres of a separate part of an imported map that is modelled."""
 
@@ -99,7 +101,8 @@ def model_log(
     result = map_log(log, trajectory, mapping, part_of(progress, DRIFT_SHARE, MAPPING_SHARE))
     grid, rest = result.grid, part_of(progress, MAPPING_SHARE, CUTTING_SHARE)
     cells = grid.geometry.cell_of(trajectory.poses[:, :2])
-    floor = largest_component(grid.free, cells[grid.geometry.contains(cells)])
+    seeds = cells[grid.geometry.contains(cells)]
+    floor = reachable_floor(grid.free, seeds, PASSAGE / 2 / options.resolution)
     if options.regions is not None:
         found = given_number(grid, floor, options.regions, options.seed, rest)
     elif options.mode == "offline":

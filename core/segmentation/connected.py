@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 from scipy import ndimage
+from skimage.segmentation import watershed
 
 from core.geometry import BoolArray, IntArray
 
@@ -30,6 +31,27 @@ def largest_component(mask: BoolArray, seeds: IntArray | None = None) -> BoolArr
         if votes.any():
             return np.asarray(labels == votes.argmax())
     return np.asarray(labels == sizes.argmax())
+
+
+def reachable_floor(free: BoolArray, seeds: IntArray, half_width: float) -> BoolArray:
+    """Free space that hangs together by passages wide enough, around where the robot has been.
+
+    Sonar maps leak: a fan of false free space behind a wall hangs on the room by a crack. Free space
+    is parted at its cracks (watershed of the clearance), and the parts that hold a seed are kept.
+
+    Args:
+        free: (rows, cols) mask.
+        seeds: (n, 2) cells `[row, col]` where the robot has been, inside the grid.
+        half_width: half the width in cells of the narrowest passage.
+    """
+    clearance = ndimage.distance_transform_edt(free)
+    cores, count = ndimage.label(clearance > half_width)
+    if count == 0 or len(seeds) == 0:
+        return largest_component(free, seeds)
+    parts = watershed(-clearance, cores, mask=free)  # type: ignore[no-untyped-call]
+    visited = np.unique(parts[seeds[:, 0], seeds[:, 1]])
+    kept = np.isin(parts, visited[visited > 0])
+    return largest_component(kept if kept.any() else free, seeds)
 
 
 def border_lengths(labels: IntArray) -> dict[tuple[int, int], int]:
