@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from app.events import ModelEvent, ModelEvents
+from app.viewer.belief_shapes import plan_bars
 from app.viewer.open_view import LoadModel, OpenView
 from app.viewer.tab import Tab
 
@@ -66,13 +67,14 @@ class Hub:
         """Shows node probabilities (0..1 by node id) as bars in one tab; empty: none."""
         tab = self._tab(model_id, token)
         if tab is not None and tab.scene is not None:
-            tab.scene.set_probabilities(shares)
+            plan = plan_bars(tab.scene.drawing, shares, None) if shares else None
+            tab.scene.belief.show_bars(tab.scene.drawing, plan)
 
     def set_robot(self, model_id: str, token: str, pose: tuple[float, float, float] | None) -> None:
         """Shows the robot at a pose in one tab, or takes it out."""
         tab = self._tab(model_id, token)
         if tab is not None and tab.scene is not None:
-            tab.scene.set_robot(pose)
+            tab.scene.belief.show_robot(tab.scene.drawing, pose)
 
     def on_event(self, event: ModelEvent, model_id: str) -> None:
         """Hears of changed and deleted models, in whatever thread; returns at once."""

@@ -54,8 +54,34 @@ class Viewport(_Message):
     height: float = Field(gt=0, lt=20_000, allow_inf_nan=False)
 
 
+Metres = Annotated[float, Field(ge=-1e6, le=1e6, allow_inf_nan=False)]
+Radians = Annotated[float, Field(ge=-1e3, le=1e3, allow_inf_nan=False)]
+Share = Annotated[float, Field(ge=0, le=1, allow_inf_nan=False)]
+NodeId = Annotated[str, Field(max_length=200)]
+
+
+class Belief(_Message):
+    """What a step of a localization believes; `template` is in the robot's frame at `pose`."""
+
+    probabilities: dict[NodeId, Share] = Field(max_length=2000)
+    unknown: Share
+    pose: tuple[Metres, Metres, Radians]
+    template: tuple[tuple[Metres, Metres], ...] = Field((), max_length=2000)
+    candidates: dict[NodeId, tuple[Metres, Metres, Radians, Share]] = Field(
+        default_factory=dict, max_length=2000
+    )
+    """x, y, heading and score by node id."""
+
+
+class Playback(_Message):
+    """Page -> view: show the belief of a step (null: none any more)."""
+
+    type: Literal["playback"]
+    belief: Belief | None
+
+
 FromPage = Annotated[
-    Select | Layers | Camera | Measure | Theme | Viewport, Field(discriminator="type")
+    Select | Layers | Camera | Measure | Theme | Viewport | Playback, Field(discriminator="type")
 ]
 FROM_PAGE: TypeAdapter[FromPage] = TypeAdapter(FromPage)
 

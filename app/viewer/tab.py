@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import asyncio
 import time
-from dataclasses import dataclass, field
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 import viser
 
 from app.viewer.camera import View, blend, farthest, fit_3d, fit_top
-from app.viewer.drawing import Drawing
+from app.viewer.drawing import Drawing, NodeMark
 from app.viewer.layers import DEFAULT_LAYERS
 from app.viewer.mailbox import Mailbox
 from app.viewer.messages import (
@@ -20,6 +21,7 @@ from app.viewer.messages import (
     Layers,
     Measure,
     Measured,
+    Playback,
     Ready,
     Select,
     Selected,
@@ -28,6 +30,7 @@ from app.viewer.messages import (
     Viewport,
 )
 from app.viewer.picking import floor_point, picked_node
+from app.viewer.playback import Playback as PlaybackState
 from app.viewer.tab_scene import TabScene
 from core.geometry import FloatArray
 
@@ -71,6 +74,7 @@ class Tab:
         self.scene: TabScene | None = None
         self.mailbox: Mailbox | None = None
         self.last_used = time.monotonic()
+        self.playback = PlaybackState()
         self._fitted: Fitted | None = None
         self._travel: asyncio.Task[None] | None = None
         self._settle_due: asyncio.TimerHandle | None = None
@@ -103,6 +107,7 @@ class Tab:
         self.scene.layers.show(state.layers)
         self.scene.select(state.selected, state.others)
         self.scene.measure(state.points)
+        self.playback.again(self.scene)
         if state.camera is None:
             self._stand_at_standard(self.scene)
         else:
@@ -116,6 +121,7 @@ class Tab:
         self.last_used = time.monotonic()
         if self.scene is not None and self.scene.client.client_id == client.client_id:
             self._stop_moving()
+            self.playback.stop()
             self.scene = None
             self.tell_ready()
 
@@ -126,8 +132,10 @@ class Tab:
             self.state.selected, self.state.others = None, ()
             self.tell(Selected(node=None))
         if self.scene is not None:
+            before = self.scene.drawing.nodes
             self.scene.redraw(drawing)
             self.scene.select(self.state.selected, self.state.others)
+            self.playback.again(self.scene, other_nodes=not _same_places(before, drawing.nodes))
             self.camera_moved()
 
     def handle(self, message: FromPage) -> None:
@@ -148,6 +156,8 @@ class Tab:
             case Viewport():
                 self.state.picture_height = message.height
                 self.camera_moved()
+            case Playback():
+                self._play(message)
 
     def click(self, drawing: Drawing, origin: FloatArray, direction: FloatArray) -> None:
         """A click in the 3D view, as a ray in the world."""
@@ -170,6 +180,7 @@ class Tab:
     def close(self) -> None:
         """The view closes for good."""
         self._stop_moving()
+        self.playback.stop()
         self.scene = None
         if self.mailbox is not None:
             self.mailbox.close()
@@ -204,6 +215,12 @@ class Tab:
             self.scene.measure(points)
         self.tell(Measured(points=points, distance_m=distance))
 
+    def _play(self, message: Playback) -> None:
+        begins_or_ends = (message.belief is None) != (self.playback.belief is None)
+        self.playback.show(message.belief, self.scene)
+        if begins_or_ends and self._fitted is not None:
+            self._go("fit")
+
     def _go(self, view: str) -> None:
         if view != "fit":
             self.state.view = view
@@ -230,7 +247,7 @@ class Tab:
     def _standard(self, scene: TabScene) -> Fitted:
         aspect = scene.client.camera.aspect
         fit = fit_top if self.state.view == "top" else fit_3d
-        return Fitted(fit(scene.drawing.outline, aspect), aspect)
+        return Fitted(fit(self.playback.outline(scene.drawing), aspect), aspect)
 
     def _settle(self) -> None:
         """After the camera or the picture's size has changed: fits again, lays labels out."""
@@ -255,6 +272,13 @@ class Tab:
         if self._settle_due is not None:
             self._settle_due.cancel()
             self._settle_due = None
+
+
+def _same_places(old: Sequence[NodeMark], new: Sequence[NodeMark]) -> bool:
+    """Whether only labels differ."""
+    return [replace(node, label=None) for node in old] == [
+        replace(node, label=None) for node in new
+    ]
 
 
 def _near(a: View, b: View) -> bool:

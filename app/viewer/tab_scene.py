@@ -8,25 +8,22 @@ import numpy as np
 import viser
 from viser import FrameHandle
 
+from app.viewer.belief_scene import BeliefScene
 from app.viewer.camera import View
-from app.viewer.canvas import LABEL_SCALE, Canvas, turned
+from app.viewer.canvas import LABEL_SCALE, Canvas
 from app.viewer.drawing import Drawing
-from app.viewer.graph_shapes import circle, unit_box
+from app.viewer.graph_shapes import circle
 from app.viewer.label_layout import LabelBox, visible_labels
-from app.viewer.layers import BARS, LABELS, ROBOT, LayerSwitch
-from app.viewer.palette import Colour, linear
+from app.viewer.layers import LABELS, LayerSwitch
+from app.viewer.palette import Colour
 from app.viewer.picking import region_outline
 from app.viewer.scene import label_position, label_text, sphere
-from core.geometry import FloatArray
 
 SELECTED: Colour = (24, 92, 255)
 MEASURE: Colour = (224, 36, 94)
-BAR: Colour = (66, 133, 244)
-BEST_BAR: Colour = (234, 67, 53)
 LIGHTS: Mapping[str, tuple[float, float]] = {"light": (2.0, 1.7), "dark": (1.05, 1.0)}
 """Intensity of the hemisphere and of the directional light in each theme."""
 SUN = (-4.0, -7.0, 10.0)
-BAR_HEIGHT, BAR_WIDTH, BAR_OFFSET = 1.8, 0.26, 0.42
 OUTLINE_HEIGHT, OUTLINE_WIDTH, RING_WIDTH, MEASURE_HEIGHT = 0.06, 0.08, 0.06, 0.08
 MEASURE_RADIUS = 0.08
 """Metres."""
@@ -42,6 +39,7 @@ class TabScene:
         self.drawing = drawing
         self._canvas = Canvas(client.scene)
         self.layers = LayerSwitch(self._canvas)
+        self.belief = BeliefScene(client, self._canvas)
         self._sky = client.scene.add_light_hemisphere(
             "/lights/sky", sky_color=(255, 255, 255), ground_color=(186, 194, 214), intensity=2.0
         )
@@ -95,53 +93,6 @@ class TabScene:
             distance = float(np.linalg.norm(flat[1] - flat[0]))
             self._canvas.label("/measure/label", f"{distance:.2f} m", flat.mean(axis=0).tolist())
 
-    def set_probabilities(self, probabilities: Mapping[str, float]) -> None:
-        """A bar beside every node, as high as its probability (0..1); the best one in red."""
-        nodes = [node for node in self.drawing.nodes if node.id in probabilities]
-        if not nodes:
-            self._canvas.remove(f"/{BARS}/boxes")
-            return
-        share = np.clip([probabilities[node.id] for node in nodes], 0.0, 1.0)
-        best = int(np.argmax(share))
-        feet = np.array([node.centre for node in nodes])
-        feet[:, 0] += BAR_OFFSET
-        feet[:, 2] = 0.02
-        scales = np.full((len(nodes), 3), BAR_WIDTH)
-        scales[:, 2] = np.maximum(share * BAR_HEIGHT, 0.02)
-        colours = [BEST_BAR if index == best else BAR for index in range(len(nodes))]
-        name = f"/{BARS}/boxes"
-        bars = self._canvas.scene.get_handle_by_name(name)
-        if isinstance(bars, viser.BatchedMeshHandle) and _same(bars.batched_positions, feet):
-            with self.client.atomic():
-                bars.batched_scales = scales.astype(np.float32)
-                bars.batched_colors = np.rint(linear(colours)).astype(np.uint8)
-        else:
-            self._canvas.instances(name, unit_box(), feet, scales, colours)
-
-    def set_robot(self, pose: Sequence[float] | None, radius: float = 0.22) -> None:
-        """The robot at a pose (x, y, heading), or nowhere."""
-        if pose is None:
-            self._canvas.remove(f"/{ROBOT}/body")
-            return
-        x, y, heading = pose
-        handle = self._canvas.scene.get_handle_by_name(f"/{ROBOT}/body")
-        if handle is None:
-            self._make_robot(radius)
-            handle = self._canvas.scene.get_handle_by_name(f"/{ROBOT}/body")
-        if handle is not None:
-            handle.position = (float(x), float(y), 0.0)
-            handle.wxyz = turned(float(heading))
-
-    def set_points(self, kind: str, points: FloatArray, colour: Colour, size: float) -> None:
-        """Small balls on the floor, such as template points or candidate poses: (N, 2) world."""
-        name = f"/{ROBOT}/{kind}"
-        flat = np.column_stack((points[:, :2], np.full(len(points), 0.1)))
-        balls = self._canvas.instances(
-            name, sphere(1), flat, np.full(len(flat), size), [colour] * len(flat)
-        )
-        if balls is None:
-            self._canvas.remove(name)
-
     def declutter(self, view: View, picture_height: float, selected: str | None) -> None:
         """Hides labels that would cover others from where the camera is."""
         boxes = [
@@ -170,29 +121,3 @@ class TabScene:
             camera.position = view.position
             camera.look_at = view.look_at
             camera.fov = view.fov
-
-    def _make_robot(self, radius: float) -> None:
-        body = f"/{ROBOT}/body"
-        self._canvas.group(body)
-        self.client.scene.add_cylinder(
-            f"{body}/hull",
-            radius=radius,
-            height=0.24,
-            color=(38, 44, 60),
-            position=(0, 0, 0.16),
-            cast_shadow=False,
-            receive_shadow=False,
-        )
-        self.client.scene.add_box(
-            f"{body}/nose",
-            color=(255, 196, 0),
-            dimensions=(radius, 0.06, 0.05),
-            position=(radius * 0.55, 0.0, 0.30),
-            cast_shadow=False,
-            receive_shadow=False,
-        )
-
-
-def _same(a: FloatArray, b: FloatArray) -> bool:
-    """Whether two lists of points are the same points."""
-    return a.shape == b.shape and bool(np.allclose(a, b))

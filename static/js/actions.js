@@ -2,6 +2,7 @@
 import { api } from "./api.js";
 import { confirmDialog } from "./dialogs.js";
 import { askRing } from "./panels/ring_dialog.js";
+import { showLocalizations } from "./panels/localization_actions.js";
 import { announce } from "./panels/edit_actions.js";
 import { ended, followJob } from "./jobs.js";
 import { go, link } from "./router.js";
@@ -34,6 +35,7 @@ export async function showRoute(route) {
   if (route.page === "log") await showLog(route.id);
   else if (route.page === "model") await showModel(route.id);
   else set({ log: null, model: null });
+  await showLocalizations(get().route);
 }
 
 async function showLog(id) {
@@ -64,7 +66,11 @@ function follow(model) {
     set({ job });
     if (!ended(job)) return;
     if (job.status === "done") toast(`${model.name} is ready.`);
-    if (get().route.id === model.id) showModel(model.id).then(() => set({ job: null }));
+    if (get().route.id !== model.id) return;
+    showModel(model.id).then(() => {
+      set({ job: null });
+      return showLocalizations(get().route);
+    });
   }, showError);
 }
 

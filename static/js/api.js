@@ -59,6 +59,11 @@ export const api = {
   undo: (model, revision) => request("POST", `api/models/${id(model)}/undo`, { revision: revision ?? null }),
   redo: (model) => request("POST", `api/models/${id(model)}/redo`),
   addLog: (model, log) => request("POST", `api/models/${id(model)}/logs`, { log_id: log }),
+  localizations: (model) => request("GET", `api/localizations?model_id=${id(model)}`),
+  localization: (localization) => request("GET", `api/localizations/${id(localization)}`),
+  localizationSteps: (localization) => request("GET", `api/localizations/${id(localization)}/steps`),
+  localize: (body) => request("POST", "api/localizations", body),
+  deleteLocalization: (localization) => request("DELETE", `api/localizations/${id(localization)}`),
   job: (job) => request("GET", `api/jobs/${id(job)}`),
   cancelJob: (job) => request("DELETE", `api/jobs/${id(job)}`),
 };

@@ -4,6 +4,8 @@ import { details } from "./panels/details.js";
 import { redo, undo } from "./panels/edit_actions.js";
 import { startCut, stopCut } from "./panels/edit_cut.js";
 import { layers } from "./panels/layers.js";
+import { localizationControls } from "./panels/localization_controls.js";
+import { goTo, isOpen, playPause, startPlayer, step } from "./panels/localization_player.js";
 import { chooseFiles, library } from "./panels/library.js";
 import { renameSelected } from "./panels/node_table.js";
 import { stage } from "./panels/stage.js";
@@ -25,6 +27,8 @@ library(byId("library"));
 layers(byId("library"));
 stage(byId("stage"));
 details(byId("details"));
+localizationControls(byId("player"));
+startPlayer();
 
 onView({
   onLabels: takeLabels,
@@ -48,6 +52,11 @@ shortcut("r", "rename the selected room", renameSelected);
 shortcut("s", "split the selected room", () => get().selected && startCut(get().selected));
 shortcut("Ctrl+z", "undo the last edit", () => undo());
 shortcut("Ctrl+Shift+z", "redo it", redo);
+shortcut(" ", "play or pause a localization", () => isOpen() && playPause());
+shortcut("ArrowLeft", "one step back", () => isOpen() && step(-1));
+shortcut("ArrowRight", "one step on", () => isOpen() && step(1));
+shortcut("Home", "the first step", () => isOpen() && goTo(0));
+shortcut("End", "the last step", () => isOpen() && goTo(Infinity));
 shortcut("p", "save a picture", screenshot);
 shortcut("t", "light or dark", toggleTheme);
 shortcut("[", "hide or show the left column", toggleSide("left"));

@@ -1,19 +1,23 @@
-// Addresses that can be sent to somebody: #/models/ID, #/logs/ID, #/.
+// Addresses that can be sent to somebody: #/models/ID, #/models/ID/localizations/LID, #/logs/ID, #/.
 import { set } from "./store.js";
 
 export function parse(hash) {
-  const [, page, id] = hash.match(/^#\/(models|logs)\/([^/]+)$/) ?? [];
-  if (!page) return { page: "home", id: null };
+  const [, log] = hash.match(/^#\/logs\/([^/]+)$/) ?? [];
+  const [, model, , localization] = hash.match(/^#\/models\/([^/]+)(\/localizations\/([^/]+))?$/) ?? [];
+  const home = { page: "home", id: null, localization: null };
   try {
-    return { page: page === "models" ? "model" : "log", id: decodeURIComponent(id) };
+    if (log) return { ...home, page: "log", id: decodeURIComponent(log) };
+    if (!model) return home;
+    return { page: "model", id: decodeURIComponent(model), localization: localization ? decodeURIComponent(localization) : null };
   } catch {
-    return { page: "home", id: null };
+    return home;
   }
 }
 
 export const link = {
   home: () => "#/",
   model: (id) => `#/models/${encodeURIComponent(id)}`,
+  localization: (model, id) => `${link.model(model)}/localizations/${encodeURIComponent(id)}`,
   log: (id) => `#/logs/${encodeURIComponent(id)}`,
 };
 

@@ -14,15 +14,15 @@ export function startShortcuts() {
   });
 }
 
-/** Runs the shortcut of a key event (or of one that the 3D view reports); true if there is one. */
+/** Runs the shortcut of a key event (or of one that the 3D view reports); true if it did something. */
 export function press({ key, ctrlKey, metaKey, altKey, shiftKey, target }) {
   if (altKey || document.querySelector("dialog[open]")) return false;
   const typing = target instanceof Element && target.closest("input:not([type=checkbox]):not([type=radio]), textarea, select");
   if (typing) return false;
   const found = shortcuts.get(nameOf(key, ctrlKey || metaKey, shiftKey));
   if (!found) return false;
-  found.run();
-  return true;
+  if (key === " " && target instanceof Element && target.closest("button, a, summary, input")) return false;
+  return found.run() !== false;
 }
 
 /** "z", "Ctrl+z" or "Ctrl+Shift+z" (Ctrl is Cmd on a Mac); without Ctrl, Shift is part of the key. */
@@ -46,11 +46,11 @@ export function helpDialog() {
       h("table", { class: "keys" }, h("tbody", {},
         [...shortcuts].map(([key, { text }]) => row(KEY_NAMES[key] ?? (key.length === 1 ? key.toUpperCase() : key), text)),
         row("W A S D", "move the camera (in the 3D view)"),
-        row("← ↑ → ↓", "turn the camera (in the 3D view)"),
+        row("← ↑ → ↓", "turn the camera (in the 3D view, while nothing is played)"),
       )),
       h("p", { class: "muted" }, "Mouse: drag turns, right drag moves, the wheel zooms; a click selects."),
     ),
   ), { wide: true });
 }
 
-const KEY_NAMES = { Escape: "Esc", "Ctrl+z": "Ctrl Z", "Ctrl+Shift+z": "Ctrl ⇧ Z" };
+const KEY_NAMES = { " ": "Space", ArrowLeft: "←", ArrowRight: "→", Escape: "Esc", "Ctrl+z": "Ctrl Z", "Ctrl+Shift+z": "Ctrl ⇧ Z" };

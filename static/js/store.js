@@ -3,10 +3,16 @@
 const state = {
   logs: null, // summaries, null until loaded
   models: null,
-  route: { page: "home", id: null },
+  route: { page: "home", id: null, localization: null },
   log: null, // detail of the log that is shown
   model: null, // detail of the model that is shown
   job: null, // the job that makes the shown model
+  localizations: null, // summaries of those in the shown model, null until loaded
+  localizing: {}, // localization id -> its job while it runs
+  localization: null, // the one that is open, with its steps as `steps_list`
+  stepIndex: 0, // which of its steps is shown, from 0
+  playing: false,
+  speed: 1, // steps a second
   selected: null, // node id
   picked: [], // ids of nodes selected beside it
   cutting: null, // id of the node that is being split

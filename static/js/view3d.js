@@ -12,6 +12,7 @@ const NO_SUCH_MODEL = 4404;
 const SHARPNESS = /^\?fixedDpr=[\d.]+$/.test(location.search) ? location.search : "";
 
 let current = null; // {model, socket, frame, tries, timer}
+let belief = null; // what is played
 const handlers = {};
 
 /** Hears what the view says: onLabels, onSelected, onChanged, onDeleted. */
@@ -28,7 +29,10 @@ export function openView(model, frameBox) {
     title: "3D view of the map",
     src: `view/${encodeURIComponent(model)}/tab/${tabToken()}/${SHARPNESS}`,
   });
-  frame.addEventListener("load", sendTheme);
+  frame.addEventListener("load", () => {
+    sendTheme();
+    sendKeys();
+  });
   current = { model, frame, socket: null, tries: 0, timer: null };
   set({ connection: "connecting", selected: null, colours: {}, measuring: false, measured: null, view: "3d" });
   frameBox.prepend(frame); // below the strips
@@ -79,6 +83,14 @@ export function measure(on) {
   tell({ type: "measure", on });
 }
 
+/** Shows the belief of a step of a localization; null ends it. */
+export function showBelief(next) {
+  if (next === belief) return;
+  belief = next;
+  tell({ type: "playback", belief });
+  sendKeys();
+}
+
 function connect(view) {
   const socket = new WebSocket(new URL(
     `view/${encodeURIComponent(view.model)}/events?tab=${tabToken()}`, document.baseURI,
@@ -87,6 +99,7 @@ function connect(view) {
   socket.onopen = () => {
     view.tries = 0;
     tell({ type: "theme", theme: theme() });
+    tell({ type: "playback", belief });
     sendHeight();
   };
   socket.onmessage = (event) => {
@@ -146,6 +159,11 @@ function greet({ layers, selected }) {
 
 function sendTheme() {
   current?.frame.contentWindow?.postMessage({ type: "theme", theme: theme() }, location.origin);
+}
+
+/** While something is played, the arrows left and right are the player's, not the camera's. */
+function sendKeys() {
+  current?.frame.contentWindow?.postMessage({ type: "keys", player: belief !== null }, location.origin);
 }
 
 function sendHeight() {

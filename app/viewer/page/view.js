@@ -41,13 +41,17 @@
   if (parent === window) return;
 
   // The page around us owns the theme and the shortcuts.
+  let plays = false;
   window.addEventListener("message", (event) => {
     if (event.origin !== window.location.origin || event.source !== parent) return;
     if (event.data?.type === "theme") root.dataset.theme = event.data.theme === "dark" ? "dark" : "light";
+    if (event.data?.type === "keys") plays = event.data.player === true;
   });
   const cameraKeys = new Set(["w", "a", "s", "d", "q", "e", "arrowup", "arrowdown", "arrowleft", "arrowright"]);
+  const playerKeys = new Set(["arrowleft", "arrowright"]);
   window.addEventListener("keydown", (event) => {
-    if (cameraKeys.has(event.key.toLowerCase()) && !event.ctrlKey && !event.metaKey) return;
+    if (plays && playerKeys.has(event.key.toLowerCase())) event.stopImmediatePropagation();
+    else if (cameraKeys.has(event.key.toLowerCase()) && !event.ctrlKey && !event.metaKey) return;
     if (event.key === "k" && (event.ctrlKey || event.metaKey)) event.stopImmediatePropagation();
     parent.postMessage({
       type: "key", key: event.key, ctrl: event.ctrlKey, meta: event.metaKey, alt: event.altKey, shift: event.shiftKey,

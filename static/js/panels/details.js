@@ -2,6 +2,8 @@
 import { h, replace } from "../dom.js";
 import { get, watch } from "../store.js";
 import { editHistory } from "./edit_history.js";
+import { localizationList } from "./localization_list.js";
+import { localizationPanel } from "./localization_panel.js";
 import { modelFacts } from "./model_facts.js";
 import { modellingForm } from "./modelling_form.js";
 import { nodeTable } from "./node_table.js";
@@ -11,20 +13,25 @@ export function details(root) {
   const table = h("section", {});
   const history = h("div", { class: "edit-history", role: "group", "aria-label": "Undo and redo" });
   const chosen = h("section", { class: "selection", "aria-live": "polite" });
+  const localizations = h("section", { class: "localizations" });
   const facts = h("section", {});
-  const rooms = h("div", { class: "stack" }, table, chosen, facts);
+  const rooms = h("div", { class: "stack" }, table, chosen, localizations, facts);
+  const played = h("div", { class: "stack localization" });
   const form = h("div", { class: "stack" });
-  replace(root, rooms, form);
+  replace(root, rooms, played, form);
   nodeTable(table);
   table.querySelector("h2").append(history);
   editHistory(history);
   selection(chosen);
   modelFacts(facts);
+  localizationList(localizations);
+  localizationPanel(played);
   watch(["route", "log", "model"], () => {
     const { log, model, route } = get();
     const showsRooms = route.page === "model" && model?.status === "done";
     const showsForm = route.page === "log" && log !== null;
-    rooms.hidden = !showsRooms;
+    rooms.hidden = !showsRooms || route.localization !== null;
+    played.hidden = !showsRooms || route.localization === null;
     form.hidden = !showsForm;
     root.hidden = !showsRooms && !showsForm;
     if (showsForm && form.dataset.log !== log.id) replace(form, modellingForm(log));

@@ -12,7 +12,10 @@ const LAYERS = [
   ["graph", "graph", "nodes and the ways between them"],
   ["labels", "labels", "names"],
   ["trajectory", "trajectory", "where the robot drove"],
+  ["bars", "bars", "probabilities"],
+  ["robot", "robot", "the robot, its local map and the candidates"],
 ];
+const PLAYED = new Set(["bars", "robot"]);
 
 export function layers(root) {
   const boxes = new Map(LAYERS.map(([name, text, tip]) => {
@@ -22,10 +25,10 @@ export function layers(root) {
   const section = h("section", { class: "layers" }, h("h2", {}, "Layers"),
     h("div", { class: "checks" }, [...boxes.values()].map((item) => item.label)));
   root.append(section);
-  watch(["layers", "connection"], (state) => {
+  watch(["layers", "connection", "route"], (state) => {
     section.hidden = state.connection === "none";
     for (const [name, { box, label }] of boxes) {
-      label.hidden = !(name in state.layers);
+      label.hidden = !(name in state.layers) || (PLAYED.has(name) && !state.route.localization);
       box.checked = Boolean(state.layers[name]);
     }
   });
