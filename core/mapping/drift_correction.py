@@ -12,7 +12,7 @@ Everything is anchored at the first pose and deterministic.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -51,6 +51,8 @@ class DriftConfig:
         half_span: a submap reaches this many nodes, and a half, to both sides.
         apart: nodes at least this far apart are tried against each other.
         wall_span: travel before and after a node from which its walls are seen (m).
+        aligned_wall_sigma: standard deviation of a wall direction while visits are aligned (rad): the
+            nodes are denser then, and see the same walls more often.
         use_walls: the walls' directions count (the Manhattan assumption).
         kept_closure_weight: share of its information that a closure keeps while visits are aligned,
             which says the same more sharply.
@@ -61,6 +63,7 @@ class DriftConfig:
     half_span: int = 2
     apart: int = 6
     wall_span: float = 5.0
+    aligned_wall_sigma: float = math.radians(3.75)
     use_walls: bool = True
     kept_closure_weight: float = 0.05
     refinement: int = 2
@@ -159,7 +162,7 @@ def _local_map(
     half = (config.half_span + 0.5) * config.spacing
     part = points_of_stretch(points, length, length[anchor] - half, length[anchor] + half)
     if config.use_walls:
-        direction = _walls_at(points, local, length, anchor, config)
+        direction = _walls_at(points, local, length, anchor, config.wall_span, config)
         if direction is not None:
             if not graph.walls:
                 graph.wall_heading = float(wrap_quarter(direction + graph.poses[node, 2]))
@@ -172,12 +175,11 @@ def _walls_at(
     local: FloatArray,
     length: FloatArray,
     anchor: int,
+    span: float,
     config: DriftConfig,
 ) -> float | None:
-    """Direction of the walls around a scan in its robot's frame."""
-    part = points_of_stretch(
-        points, length, length[anchor] - config.wall_span, length[anchor] + config.wall_span
-    )
+    """Direction of the walls around a scan in its robot's frame, seen within `span` of travel (m)."""
+    part = points_of_stretch(points, length, length[anchor] - span, length[anchor] + span)
     return wall_direction(*points_from(points, local, anchor, part), config.walls)
 
 
@@ -195,7 +197,8 @@ def _align(
     index[::k] = graph.nodes
     nodes = np.unique(index).astype(np.int64)
     number = np.searchsorted(nodes, graph.nodes)
-    fine = PoseGraph(log.odometry, nodes, config.noise, config.graph)
+    solver = replace(config.graph, wall_sigma=config.aligned_wall_sigma)
+    fine = PoseGraph(log.odometry, nodes, config.noise, solver)
     fine.poses = coarse[nodes].copy()
     fine.restart(graph.error, graph.wall_heading)
     fine.links = [
@@ -209,8 +212,9 @@ def _align(
     ]
     points = reflection_points(log, coarse, config.reflection)
     if config.use_walls:
+        span = (config.half_span + 0.5) * config.spacing
         seen = {
-            node: _walls_at(points, coarse, length, int(scan), config)
+            node: _walls_at(points, coarse, length, int(scan), span, config)
             for node, scan in enumerate(nodes)
         }
         fine.walls = {node: value for node, value in seen.items() if value is not None}

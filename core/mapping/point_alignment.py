@@ -39,7 +39,7 @@ class AlignmentConfig:
     gates: tuple[float, ...] = (0.35, 0.25, 0.2, 0.15, 0.15)
     patch: float = 0.1
     same_facing: float = 0.8
-    apart: float = 6.0
+    apart: float = 3.0
     partners: int = 10
     sigma: float = 0.2
     steps: int = 2

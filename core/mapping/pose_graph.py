@@ -113,9 +113,10 @@ class PoseGraph:
             self.poses[:, 2] = wrap_angle(self.poses[:, 2])
             self.error = self.error + step[count : count + 3]
             self.wall_heading = float(wrap_quarter(self.wall_heading + step[-1]))
-            self._linearise()
+            self.motion = self._motion(self.error)
             if float(np.abs(step).max()) < self.config.tolerance:
                 break
+        self._linearise()
 
     def relative_covariance(self, pairs: list[tuple[int, int]]) -> FloatArray:
         """(P, 3, 3) covariance of the second node's pose in the frame of the first, for each pair."""

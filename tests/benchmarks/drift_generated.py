@@ -16,7 +16,7 @@ import time
 
 import numpy as np
 
-from core.geometry import wrap_angle
+from core.geometry import compose, inverse, wrap_angle
 from core.pipeline.odometry import OdometryResult, trajectory_for
 from core.sensing import RobotLog
 from core.simulation import simulate
@@ -26,8 +26,10 @@ def errors(poses: np.ndarray, log: RobotLog, part: tuple[int, int]) -> tuple[flo
     """Mean and final position error (m), largest heading error (degrees) over a part of the drive."""
     assert log.truth is not None
     span = slice(*part)
-    off = np.hypot(*(poses[span, :2] - log.truth[span, :2]).T)
-    turned = np.abs(wrap_angle(poses[span, 2] - log.truth[span, 2]))
+    start = part[0]
+    truth = compose(log.odometry[start], compose(inverse(log.truth[start]), log.truth[span]))
+    off = np.hypot(*(poses[span, :2] - truth[:, :2]).T)
+    turned = np.abs(wrap_angle(poses[span, 2] - truth[:, 2]))
     return float(off.mean()), float(off[-1]), math.degrees(float(turned.max()))
 
 
@@ -55,7 +57,9 @@ def main() -> None:
     parser.add_argument("--odometry", default="bad")
     parser.add_argument("--worlds", action="store_true")
     chosen = parser.parse_args()
-    sys.stdout.write("home            drive  mean: raw, now   end: raw, now  heading: raw, now   used  closures  cpu s\n")
+    sys.stdout.write(
+        "home            drive  mean: raw, now   end: raw, now  heading: raw, now   used  closures  cpu s\n"
+    )
     table = []
     for number in range(chosen.first, chosen.first + chosen.homes):
         log = simulate(f"random-{number}", seed=number, odometry=chosen.odometry)
