@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import psutil
+import pytest
 from fastapi.testclient import TestClient
 
 from app.main import create_app
@@ -19,6 +20,7 @@ from app.settings import Settings
 
 Upload = Callable[..., dict[str, Any]]
 Wait = Callable[..., dict[str, Any]]
+Workers = Callable[[], list[psutil.Process]]
 
 
 def start(client: TestClient, log_id: str, regions: int = 2) -> tuple[str, str]:
@@ -39,16 +41,15 @@ def wait_until_running(client: TestClient, job_id: str) -> None:
         time.sleep(0.02)
 
 
-def workers() -> list[psutil.Process]:
-    """The worker processes of this process."""
-    found = []
-    for child in psutil.Process().children(recursive=True):
-        try:
-            if "app.jobs.worker" in child.cmdline():
-                found.append(child)
-        except (psutil.NoSuchProcess, psutil.ZombieProcess):
-            continue
-    return found
+@pytest.fixture
+def workers() -> Callable[[], list[psutil.Process]]:
+    """Tells the worker processes that were started since the test began."""
+
+    def children() -> list[psutil.Process]:
+        return psutil.Process().children(recursive=True)
+
+    before = children()
+    return lambda: [process for process in children() if process not in before]
 
 
 def events(client: TestClient, job_id: str) -> tuple[list[dict[str, Any]], list[str]]:
@@ -105,7 +106,7 @@ def test_a_waiting_job_is_queued_and_its_stream_says_that_it_lives(
 
 
 def test_cancelling_kills_the_worker_at_once_and_leaves_nothing(
-    client: TestClient, upload: Upload, long_log: bytes, settings: Settings
+    workers: Workers, client: TestClient, upload: Upload, long_log: bytes, settings: Settings
 ) -> None:
     log_id = upload(client, long_log)["id"]
     model_id, job_id = start(client, log_id)
@@ -124,7 +125,7 @@ def test_cancelling_kills_the_worker_at_once_and_leaves_nothing(
 
 
 def test_a_killed_worker_fails_its_job_with_the_reason_and_the_next_job_works(
-    client: TestClient, upload: Upload, long_log: bytes, wait_for_job: Wait
+    workers: Workers, client: TestClient, upload: Upload, long_log: bytes, wait_for_job: Wait
 ) -> None:
     log_id = upload(client, long_log)["id"]
     model_id, job_id = start(client, log_id)
@@ -173,7 +174,7 @@ def test_an_upload_that_takes_too_long_to_read_is_refused(tmp_path: Path, long_l
 
 
 def test_stopping_the_server_fails_what_runs_and_the_next_start_says_why(
-    settings: Settings, upload: Upload, long_log: bytes
+    workers: Workers, settings: Settings, upload: Upload, long_log: bytes
 ) -> None:
     with TestClient(create_app(settings), base_url="http://127.0.0.1") as client:
         model_id, job_id = start(client, upload(client, long_log)["id"])

@@ -78,7 +78,9 @@ def test_touching_nodes_of_one_label_become_a_room_and_a_room_names_its_nodes(
     naming: Naming,
 ) -> None:
     model = naming.model()
-    assert len(model["rooms"]) == 3
+    for node in model["nodes"]:
+        rooms = naming.node(node["id"], f"room of {node['id']}").json()["rooms"]
+    assert len(rooms) == 3
     edge = model["edges"][0]
     naming.node(edge["source"], "living room")
     rooms = naming.node(edge["target"], "living room").json()["rooms"]

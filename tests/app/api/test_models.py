@@ -46,18 +46,18 @@ def test_a_model_tells_its_topology_status_and_provenance(
 
 
 def test_a_model_is_called_like_its_log_unless_told_otherwise(
-    client: TestClient, upload: Upload, make_log: Any
+    shared_client: TestClient, upload: Upload, make_log: Any
 ) -> None:
-    log = upload(client, make_log(name="flat"))
+    log = upload(shared_client, make_log(name="flat"))
     body = {"log_id": log["id"], "regions": 2}
-    unnamed = client.post("/api/models", json=body).json()["id"]
-    named = client.post("/api/models", json=body | {"name": " attic "}).json()["id"]
-    assert client.get(f"/api/models/{unnamed}").json()["name"] == "flat"
-    assert client.get(f"/api/models/{named}").json()["name"] == "attic"
-    answer = client.patch(f"/api/models/{named}", json={"name": "loft"})
+    unnamed = shared_client.post("/api/models", json=body).json()["id"]
+    named = shared_client.post("/api/models", json=body | {"name": " attic "}).json()["id"]
+    assert shared_client.get(f"/api/models/{unnamed}").json()["name"] == "flat"
+    assert shared_client.get(f"/api/models/{named}").json()["name"] == "attic"
+    answer = shared_client.patch(f"/api/models/{named}", json={"name": "loft"})
     assert answer.json()["name"] == "loft"
-    assert [m["name"] for m in client.get("/api/models?sort=name").json()] == ["flat", "loft"]
-    assert [m["name"] for m in client.get("/api/models?q=LOF").json()] == ["loft"]
+    found = shared_client.get("/api/models?q=LOF").json()
+    assert [model["name"] for model in found] == ["loft"]
 
 
 def test_the_grid_picture_shows_the_mapped_room(
@@ -71,17 +71,17 @@ def test_the_grid_picture_shows_the_mapped_room(
 
 
 def test_a_log_in_use_cannot_be_deleted_until_its_model_is(
-    client: TestClient, upload: Upload, make_model: MakeModel, settings: Settings
+    shared_client: TestClient, upload: Upload, make_model: MakeModel, shared_settings: Settings
 ) -> None:
-    log = upload(client)["id"]
-    model = make_model(client, log)
-    refused = client.delete(f"/api/logs/{log}")
+    log = upload(shared_client)["id"]
+    model = make_model(shared_client, log)
+    refused = shared_client.delete(f"/api/logs/{log}")
     assert refused.status_code == 409
     assert "square room" in refused.json()["detail"]
-    assert client.delete(f"/api/models/{model}").status_code == 204
-    assert client.get(f"/api/models/{model}").status_code == 404
-    assert list((settings.data / "models").iterdir()) == []
-    assert client.delete(f"/api/logs/{log}").status_code == 204
+    assert shared_client.delete(f"/api/models/{model}").status_code == 204
+    assert shared_client.get(f"/api/models/{model}").status_code == 404
+    assert not (shared_settings.data / "models" / model).exists()
+    assert shared_client.delete(f"/api/logs/{log}").status_code == 204
 
 
 def test_a_model_of_no_log_is_refused(shared_client: TestClient) -> None:
@@ -98,7 +98,11 @@ def test_autonomous_with_a_number_of_regions_is_refused(shared_client: TestClien
 
 
 def test_a_job_that_cannot_succeed_fails_with_the_reason_and_leaves_no_files(
-    client: TestClient, upload: Upload, wait_for_job: Wait, make_log: Any, settings: Settings
+    shared_client: TestClient,
+    upload: Upload,
+    wait_for_job: Wait,
+    make_log: Any,
+    shared_settings: Settings,
 ) -> None:
     deaf = b"".join(
         line
@@ -108,56 +112,65 @@ def test_a_job_that_cannot_succeed_fails_with_the_reason_and_leaves_no_files(
         + b"[null,null,null,null,null,null,null,null]}\n"
         for i, line in enumerate(make_log(scans=20).splitlines(keepends=True))
     )
-    log = upload(client, deaf)["id"]
-    accepted = client.post("/api/models", json={"log_id": log, "regions": 2}).json()
-    job = wait_for_job(client, accepted["job_id"])
-    model = client.get(f"/api/models/{accepted['id']}").json()
+    log = upload(shared_client, deaf)["id"]
+    accepted = shared_client.post("/api/models", json={"log_id": log, "regions": 2}).json()
+    job = wait_for_job(shared_client, accepted["job_id"])
+    model = shared_client.get(f"/api/models/{accepted['id']}").json()
     assert job["status"] == model["status"] == "failed"
     assert "echo" in job["error"]
     assert model["error"] == job["error"]
     assert model["nodes"] == []
-    assert client.get(f"/api/models/{accepted['id']}/grid.png").status_code == 409
-    assert list((settings.data / "models").iterdir()) == []
-    assert list((settings.data / "temp").iterdir()) == []
+    assert shared_client.get(f"/api/models/{accepted['id']}/grid.png").status_code == 409
+    assert not (shared_settings.data / "models" / accepted["id"]).exists()
 
 
 def test_a_drive_goes_on_with_another_log_and_keeps_its_labels(
-    client: TestClient, upload: Upload, make_model: MakeModel, make_log: Any, wait_for_job: Wait
+    shared_client: TestClient,
+    upload: Upload,
+    make_model: MakeModel,
+    make_log: Any,
+    wait_for_job: Wait,
 ) -> None:
-    first = upload(client, make_log(scans=80))["id"]
-    second = upload(client, make_log(scans=80, start_t=20.0))["id"]
-    model = make_model(client, first, regions=2)
-    before = client.get(f"/api/models/{model}").json()
+    first = upload(shared_client, make_log(scans=80))["id"]
+    second = upload(shared_client, make_log(scans=80, start_t=20.0))["id"]
+    model = make_model(shared_client, first, regions=2)
+    before = shared_client.get(f"/api/models/{model}").json()
     node = before["nodes"][0]
-    client.patch(f"/api/models/{model}/nodes/{node['id']}", json={"label": "den"})
-    accepted = client.post(f"/api/models/{model}/logs", json={"log_id": second})
+    shared_client.patch(f"/api/models/{model}/nodes/{node['id']}", json={"label": "den"})
+    accepted = shared_client.post(f"/api/models/{model}/logs", json={"log_id": second})
     assert accepted.status_code == 202
     assert accepted.json()["id"] == model
-    assert wait_for_job(client, accepted.json()["job_id"])["status"] == "done"
-    after = client.get(f"/api/models/{model}").json()
+    assert wait_for_job(shared_client, accepted.json()["job_id"])["status"] == "done"
+    after = shared_client.get(f"/api/models/{model}").json()
     assert after["log_ids"] == [first, second]
     assert after["labels"] == ["den"]
     (labelled,) = [n for n in after["nodes"] if n["label"] == "den"]
     assert np.hypot(*np.subtract(labelled["position"], node["position"])) < 1.0
-    assert client.delete(f"/api/logs/{second}").status_code == 409
+    assert shared_client.delete(f"/api/logs/{second}").status_code == 409
 
 
 def test_a_log_of_another_drive_fails_and_leaves_the_model_as_it_was(
-    client: TestClient, upload: Upload, make_model: MakeModel, make_log: Any, wait_for_job: Wait
+    shared_client: TestClient,
+    upload: Upload,
+    make_model: MakeModel,
+    make_log: Any,
+    wait_for_job: Wait,
 ) -> None:
-    first, other = upload(client)["id"], upload(client, make_log(name="other"))["id"]
-    model = make_model(client, first)
-    before = client.get(f"/api/models/{model}").json()
-    assert client.post(f"/api/models/{model}/logs", json={"log_id": first}).status_code == 422
-    accepted = client.post(f"/api/models/{model}/logs", json={"log_id": other}).json()
-    job = wait_for_job(client, accepted["job_id"])
-    after = client.get(f"/api/models/{model}").json()
+    first, other = upload(shared_client)["id"], upload(shared_client, make_log(name="other"))["id"]
+    model = make_model(shared_client, first)
+    before = shared_client.get(f"/api/models/{model}").json()
+    assert (
+        shared_client.post(f"/api/models/{model}/logs", json={"log_id": first}).status_code == 422
+    )
+    accepted = shared_client.post(f"/api/models/{model}/logs", json={"log_id": other}).json()
+    job = wait_for_job(shared_client, accepted["job_id"])
+    after = shared_client.get(f"/api/models/{model}").json()
     assert job["status"] == "failed"
     assert after["status"] == "done"
     assert after["error"] == job["error"]
     assert after["nodes"] == before["nodes"]
     assert after["log_ids"] == [first]
-    assert client.delete(f"/api/logs/{other}").status_code == 204
+    assert shared_client.delete(f"/api/logs/{other}").status_code == 204
 
 
 def two_rooms() -> Any:
@@ -186,33 +199,32 @@ def map_files(name: str = "map.png", **changes: Any) -> dict[str, tuple[str, byt
     return {"yaml": ("flat.yaml", text.encode()), "image": ("map.png", image.getvalue())}
 
 
-def test_an_imported_map_becomes_a_model(
-    client: TestClient, wait_for_job: Wait, settings: Settings
-) -> None:
-    accepted = client.post("/api/models/import", files=map_files(), data={"regions": "2"})
+def test_an_imported_map_becomes_a_model(shared_client: TestClient, wait_for_job: Wait) -> None:
+    accepted = shared_client.post("/api/models/import", files=map_files(), data={"regions": "2"})
     assert accepted.status_code == 202, accepted.text
-    assert wait_for_job(client, accepted.json()["job_id"])["status"] == "done"
-    model = client.get(f"/api/models/{accepted.json()['id']}").json()
+    assert wait_for_job(shared_client, accepted.json()["job_id"])["status"] == "done"
+    model = shared_client.get(f"/api/models/{accepted.json()['id']}").json()
     assert model["name"] == "flat"
     assert model["log_ids"] == []
     assert len(model["nodes"]) == 2
     (edge,) = model["edges"]
     assert edge["doorway"] == pytest.approx([4.3, 2.1], abs=0.2)
     assert edge["width_m"] == pytest.approx(0.8, abs=0.15)
-    picture = client.get(f"/api/models/{model['id']}/grid.png").content
+    picture = shared_client.get(f"/api/models/{model['id']}/grid.png").content
     assert np.array_equal(np.asarray(Image.open(io.BytesIO(picture))), two_rooms())
-    assert list((settings.data / "temp").iterdir()) == []
-    log = client.post(f"/api/models/{model['id']}/logs", json={"log_id": "x"})
+    log = shared_client.post(f"/api/models/{model['id']}/logs", json={"log_id": "x"})
     assert log.status_code == 422
 
 
 def test_the_image_entry_of_an_imported_map_is_not_followed(
-    client: TestClient, wait_for_job: Wait, tmp_path: Path
+    shared_client: TestClient, wait_for_job: Wait, tmp_path: Path
 ) -> None:
     for name in ("/etc/passwd", "../../../secret.png"):
         files = map_files(name=name)
-        accepted = client.post("/api/models/import", files=files, data={"regions": "2"}).json()
-        assert wait_for_job(client, accepted["job_id"])["status"] == "done"
+        accepted = shared_client.post(
+            "/api/models/import", files=files, data={"regions": "2"}
+        ).json()
+        assert wait_for_job(shared_client, accepted["job_id"])["status"] == "done"
 
 
 @pytest.mark.parametrize(

@@ -16,6 +16,7 @@ from app.jobs.worker_pool import TASKS_PER_WORKER, WorkerPool
 from app.jobs.worker_process import OutOfMemoryError, TaskLimits, TaskTimeoutError
 from core.errors import LogError, TooLargeError
 
+WorkerIds = Callable[[], set[int]]
 PLENTY = TaskLimits(60, 1 << 30)
 
 
@@ -44,11 +45,20 @@ def with_pool(use: Callable[[WorkerPool], Coroutine[Any, Any, Any]], warm: int =
     return asyncio.run(main())
 
 
-def worker_ids() -> set[int]:
-    return {child.pid for child in psutil.Process().children()}
+@pytest.fixture
+def worker_ids() -> Callable[[], set[int]]:
+    """Tells the processes that were started since the test began."""
+
+    def children() -> set[int]:
+        return {child.pid for child in psutil.Process().children()}
+
+    before = children()
+    return lambda: children() - before
 
 
-def test_a_task_answers_with_its_result_and_tells_progress(drive: Any, tmp_path: Path) -> None:
+def test_a_task_answers_with_its_result_and_tells_progress(
+    worker_ids: WorkerIds, drive: Any, tmp_path: Path
+) -> None:
     told: list[float] = []
 
     async def use(pool: WorkerPool) -> dict[str, Any]:
@@ -60,7 +70,9 @@ def test_a_task_answers_with_its_result_and_tells_progress(drive: Any, tmp_path:
     assert worker_ids() == set()
 
 
-def test_a_worker_serves_again_after_a_good_task_and_after_bad_input(drive: Any) -> None:
+def test_a_worker_serves_again_after_a_good_task_and_after_bad_input(
+    worker_ids: WorkerIds, drive: Any
+) -> None:
     async def use(pool: WorkerPool) -> list[set[int]]:
         seen = []
         for number, content in enumerate((None, b"", None)):
@@ -74,7 +86,9 @@ def test_a_worker_serves_again_after_a_good_task_and_after_bad_input(drive: Any)
     assert len(first) == 1
 
 
-def test_an_error_in_the_log_keeps_its_kind_and_line(drive: Any, make_log: Any) -> None:
+def test_an_error_in_the_log_keeps_its_kind_and_line(
+    worker_ids: WorkerIds, drive: Any, make_log: Any
+) -> None:
     lines = make_log().splitlines(keepends=True)
     lines[4] = b"{}\n"
 
@@ -87,7 +101,7 @@ def test_an_error_in_the_log_keeps_its_kind_and_line(drive: Any, make_log: Any) 
 
 
 def test_a_task_without_enough_memory_says_so_and_its_worker_is_not_used_again(
-    drive: Any, make_log: Any
+    worker_ids: WorkerIds, drive: Any, make_log: Any
 ) -> None:
     async def use(pool: WorkerPool) -> tuple[set[int], set[int]]:
         await pool.run("read_log", drive(), PLENTY)
@@ -100,7 +114,7 @@ def test_a_task_without_enough_memory_says_so_and_its_worker_is_not_used_again(
     assert before.isdisjoint(after)
 
 
-def test_a_task_that_takes_too_long_is_stopped(drive: Any) -> None:
+def test_a_task_that_takes_too_long_is_stopped(worker_ids: WorkerIds, drive: Any) -> None:
     async def use(pool: WorkerPool) -> None:
         await pool.run("read_log", drive(), TaskLimits(0.001, 1 << 30))
 
@@ -109,7 +123,9 @@ def test_a_task_that_takes_too_long_is_stopped(drive: Any) -> None:
     assert worker_ids() == set()
 
 
-def test_a_cancelled_task_takes_its_worker_along(drive: Any, make_log: Any) -> None:
+def test_a_cancelled_task_takes_its_worker_along(
+    worker_ids: WorkerIds, drive: Any, make_log: Any
+) -> None:
     async def use(pool: WorkerPool) -> set[int]:
         task = asyncio.create_task(pool.run("read_log", drive(make_log(scans=20_000)), PLENTY))
         await asyncio.sleep(0.3)
@@ -122,7 +138,7 @@ def test_a_cancelled_task_takes_its_worker_along(drive: Any, make_log: Any) -> N
     assert with_pool(use, warm=0) == set()
 
 
-def test_a_worker_is_replaced_after_many_tasks(drive: Any) -> None:
+def test_a_worker_is_replaced_after_many_tasks(worker_ids: WorkerIds, drive: Any) -> None:
     async def use(pool: WorkerPool) -> tuple[set[int], set[int]]:
         await pool.warm_up()
         before = worker_ids()
@@ -135,7 +151,7 @@ def test_a_worker_is_replaced_after_many_tasks(drive: Any) -> None:
     assert len(after) == 1
 
 
-def test_a_worker_whose_server_is_gone_leaves(drive: Any) -> None:
+def test_a_worker_whose_server_is_gone_leaves(worker_ids: WorkerIds, drive: Any) -> None:
     async def use(pool: WorkerPool) -> psutil.Process:
         await pool.warm_up()
         (pid,) = worker_ids()
@@ -151,7 +167,9 @@ def test_a_worker_whose_server_is_gone_leaves(drive: Any) -> None:
     asyncio.run(abandon())
 
 
-def test_too_many_sonars_are_too_large_not_merely_wrong(drive: Any, make_log: Any) -> None:
+def test_too_many_sonars_are_too_large_not_merely_wrong(
+    worker_ids: WorkerIds, drive: Any, make_log: Any
+) -> None:
     import json
 
     header = json.loads(make_log().split(b"\n")[0])

@@ -20,7 +20,6 @@ from app.storage.edit_history import MOST_STEPS, EditHistory
 from app.storage.label_edit import node_label
 from app.storage.model_facts import facts_of
 from app.storage.model_store import ModelStore
-from app.storage.records import Status
 from app.storage.shape_edit import merge, move, split
 from core.errors import InputError
 from core.mapping import GridGeometry, OccupancyGrid
