@@ -132,8 +132,8 @@ async function uploadLog(file, ring) {
     await refreshLists();
     go(link.log(log.id));
   } catch (error) {
-    const needsRing = !ring && error.status === 422 && /\bring\b/i.test(error.message);
-    const chosen = needsRing ? await askRing(file.name, error.message) : undefined;
+    const needsRing = !ring && error.status === 422 && /\bring\b|sonars: Field required/i.test(error.message);
+    const chosen = needsRing ? await askRing(file.name) : undefined;
     if (!chosen) throw error;
     await uploadLog(file, chosen);
   }
