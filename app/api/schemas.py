@@ -13,6 +13,7 @@ from app.storage.records import LogRecord, ModelRecord, Status
 MAX_LABEL_LENGTH = 80
 MAX_NAME_LENGTH = 200
 MAX_REGIONS = 1000
+PAPER_NEEDS_REGIONS = "the paper's offline method needs the number of regions: give regions"
 
 
 def _printable(text: str) -> str:
@@ -77,6 +78,8 @@ class ModelBody(Body):
                 "autonomous modelling finds the number of regions itself: leave regions away "
                 "or choose mode offline"
             )
+        if self.mode == "offline" and self.method == "paper" and self.regions is None:
+            raise ValueError(PAPER_NEEDS_REGIONS)
         return self
 
 
@@ -90,6 +93,12 @@ class ImportFields(Body):
     def options(self) -> dict[str, Any]:
         """What `core.pipeline.modeller.ModellingOptions` takes."""
         return {"mode": "offline"} | self.model_dump(exclude={"name"}, exclude_none=True)
+
+    @model_validator(mode="after")
+    def _possible(self) -> ImportFields:
+        if self.method == "paper" and self.regions is None:
+            raise ValueError(PAPER_NEEDS_REGIONS)
+        return self
 
 
 class LogIdBody(Body):

@@ -65,6 +65,8 @@ def test_a_wrong_method_is_405(shared_client: TestClient, method: str, path: str
         ({"log_id": "x", "regions": 10_000}, "regions"),
         ({"log_id": "x", "regions": "ten"}, "regions"),
         ({"log_id": "x", "mode": "psychic"}, "mode"),
+        ({"log_id": "x", "mode": "autonomous", "regions": 4}, "offline"),
+        ({"log_id": "x", "mode": "offline", "method": "paper"}, "number of regions"),
         ({"log_id": "x", "colour": "red"}, "colour"),
         ({"log_id": "x", "name": "a\x00b"}, "name"),
         ({"log_id": "x", "resolution": "NaN"}, "resolution"),

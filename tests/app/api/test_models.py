@@ -90,13 +90,6 @@ def test_a_model_of_no_log_is_refused(shared_client: TestClient) -> None:
     assert "log_id" in response.json()["detail"]
 
 
-def test_autonomous_with_a_number_of_regions_is_refused(shared_client: TestClient) -> None:
-    body = {"log_id": "x", "mode": "autonomous", "regions": 4}
-    response = shared_client.post("/api/models", json=body)
-    assert response.status_code == 422
-    assert "offline" in response.json()["detail"]
-
-
 def test_a_job_that_cannot_succeed_fails_with_the_reason_and_leaves_no_files(
     shared_client: TestClient,
     upload: Upload,
@@ -233,6 +226,7 @@ def test_the_image_entry_of_an_imported_map_is_not_followed(
         (map_files(), {"regions": "0"}, "regions"),
         (map_files(), {"regions": "many"}, "regions"),
         (map_files(), {"surprise": "1"}, "surprise"),
+        (map_files(), {"method": "paper"}, "number of regions"),
         (map_files(resolution=-1), {}, "resolution"),
         (map_files(resolution="wide"), {}, "resolution"),
         (map_files() | {"yaml": ("m.yaml", b"- just\n- a list\n")}, {}, "map.yaml"),
