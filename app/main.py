@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING
 
 from fastapi import APIRouter, FastAPI
 
-from app.api import docs_page, edits, health, jobs, labels, localizations, logs, models
+from app.api import docs_page, edits, health, jobs, labels, live, localizations, logs, models
 from app.api.static_pages import STATIC_FOLDER, StaticPages
 from app.body_limit import BodyLimit
-from app.demo import load_samples
+from app.demo import show_samples
 from app.errors import PROBLEM_RESPONSES, install_error_handlers
 from app.events import ModelEvents
 from app.lazy_view import LazyView
+from app.live.hub import LiveHub
 from app.security import BrowserGuard
 from app.services import Services, open_services
 from app.settings import Settings
@@ -50,6 +51,7 @@ def create_app(settings: Settings) -> FastAPI:
         edits.router,
         localizations.router,
         jobs.router,
+        live.router,
     ):
         api.include_router(router)
     app.include_router(api)
@@ -65,11 +67,14 @@ def create_app(settings: Settings) -> FastAPI:
 async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
     async with open_services(app.state.settings, app.state.events) as services:
         app.state.services = services
-        loading = asyncio.create_task(load_samples(services)) if services.settings.demo else None
+        app.state.live = LiveHub(services)
+        await app.state.live.recover()
+        loading = asyncio.create_task(show_samples(services)) if services.settings.demo else None
         yield
         if loading is not None:
             loading.cancel()
             await asyncio.wait([loading])
+        await app.state.live.close()
         await app.state.view.close()
 
 

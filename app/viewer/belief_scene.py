@@ -16,7 +16,7 @@ from app.viewer.canvas import Canvas, turned
 from app.viewer.drawing import Drawing
 from app.viewer.graph_shapes import unit_box
 from app.viewer.layers import BARS, ROBOT
-from app.viewer.palette import Colour, linear
+from app.viewer.palette import Colour, linear, mix
 from app.viewer.scene import LABEL_GAP, sphere
 from core.geometry import FloatArray
 
@@ -28,6 +28,9 @@ TEMPLATE_RADIUS, TEMPLATE_HEIGHT = 0.045, 0.12
 ROBOT_RADIUS, ROBOT_HEIGHT, ROBOT_CLEARANCE = 0.22, 0.24, 0.04
 CANDIDATE_LENGTH, CANDIDATE_LEVEL = 0.5, 0.05
 """Metres."""
+SHADE: Colour = (16, 20, 36)
+SHADE_SHARE = 0.5
+"""What darkens the colour of a node, so that its candidate stands out from its own floor."""
 LEAST_CANDIDATE_SHARE = 0.55
 """Size of a candidate that fits nothing against one that fits everything."""
 UNKNOWN_TEXT = "unknown"
@@ -106,7 +109,7 @@ class BeliefScene:
         turns = np.array([turned(heading) for heading in given[:, 2]], np.float32)
         arrows = self._canvas.scene.get_handle_by_name(_CANDIDATES)
         if not isinstance(arrows, viser.BatchedMeshHandle):
-            colours = [node.colour for node in nodes]
+            colours = [mix(node.colour, SHADE, SHADE_SHARE) for node in nodes]
             made = self._canvas.instances(_CANDIDATES, arrow(), positions, scales, colours)
             if made is not None:
                 made.batched_wxyzs = turns

@@ -19,8 +19,10 @@ UNKNOWN_BAR: Colour = (128, 136, 152)
 BAR_SHARE = 2.3
 """Width of a bar against the radius of its node's sphere: seen from above it frames the sphere."""
 FLOOR_LEVEL, LEAST_HEIGHT = 0.02, 0.03
-UNKNOWN_WIDTH, UNKNOWN_DISTANCE = 0.4, 0.9
-"""Metres; the last one is the distance of the bar of `unknown` from the home."""
+UNKNOWN_WIDTH, UNKNOWN_DISTANCE, UNKNOWN_MARGIN = 0.4, 1.0, 0.9
+"""Metres; then the distance of the bar of `unknown` from the home, and room for its name."""
+LEAST_WIDTH_SHARE = 0.4
+"""Of a bar of probability 0 against one of 1: from above, the area tells the probability."""
 ARROW_THICKNESS = 0.16
 """Of an arrow of length 1."""
 
@@ -71,10 +73,12 @@ def plan_bars(
         colours.append(UNKNOWN_BAR)
     if share:
         colours[int(np.argmax(share))] = BEST_BAR
-    heights = np.maximum(np.clip(np.array(share), 0.0, 1.0) * BarPlan.FULL_HEIGHT, LEAST_HEIGHT)
+    shares = np.clip(np.array(share, float), 0.0, 1.0)
+    heights = np.maximum(shares * BarPlan.FULL_HEIGHT, LEAST_HEIGHT)
+    across = np.array(widths) * (LEAST_WIDTH_SHARE + (1 - LEAST_WIDTH_SHARE) * np.sqrt(shares))
     return BarPlan(
         np.array(feet, float).reshape(-1, 3),
-        np.column_stack((widths, widths, heights)) if share else np.zeros((0, 3)),
+        np.column_stack((across, across, heights)),
         tuple(colours),
         unknown is not None,
     )
@@ -85,6 +89,12 @@ def unknown_spot(drawing: Drawing) -> tuple[float, float]:
     (_, y), (x, _) = drawing.outline.min(axis=0).tolist(), drawing.outline.max(axis=0).tolist()
     away = UNKNOWN_DISTANCE * drawing.mark_scale
     return x + away, y + away
+
+
+def with_unknown(drawing: Drawing) -> FloatArray:
+    """(K, 2) outline of the home and of the bar of `unknown` beside it, for the camera."""
+    (x, y), margin = unknown_spot(drawing), UNKNOWN_MARGIN * drawing.mark_scale
+    return np.concatenate((drawing.outline, [(x - margin, y), (x + margin, y)]))
 
 
 def evenly(count: int, most: int) -> IntArray:

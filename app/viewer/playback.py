@@ -6,7 +6,7 @@ import asyncio
 
 import numpy as np
 
-from app.viewer.belief_shapes import BarPlan, plan_bars, unknown_spot
+from app.viewer.belief_shapes import BarPlan, plan_bars, with_unknown
 from app.viewer.drawing import Drawing
 from app.viewer.messages import Belief
 from app.viewer.tab_scene import TabScene
@@ -58,14 +58,12 @@ class Playback:
 
     def outline(self, drawing: Drawing) -> FloatArray:
         """(K, 2) what the camera has to show: the home, and the bar of `unknown` when there is one."""
-        if self.belief is None:
-            return drawing.outline
-        return np.concatenate((drawing.outline, [unknown_spot(drawing)]))
+        return drawing.outline if self.belief is None else with_unknown(drawing)
 
     def _marks(self, belief: Belief, scene: TabScene) -> None:
         drawing = scene.drawing
         scene.belief.show_robot(drawing, belief.pose)
-        scene.belief.show_template(drawing, _in_world(belief))
+        scene.belief.show_template(drawing, in_world(belief))
         scene.belief.show_candidates(drawing, belief.candidates)
 
     async def _grow(self, before: BarPlan, plan: BarPlan, scene: TabScene) -> None:
@@ -78,7 +76,7 @@ class Playback:
         scene.belief.show_bars(scene.drawing, plan)
 
 
-def _in_world(belief: Belief) -> FloatArray:
+def in_world(belief: Belief) -> FloatArray:
     """(K, 2) the template, laid onto the map at the best pose."""
     points = np.array(belief.template, float).reshape(-1, 2)
     x, y, heading = belief.pose

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from app.demo import load_samples
+from app.demo import SAMPLE_OPTIONS, load_samples, show_samples
 from app.events import ModelEvents
 from app.services import open_services
 from app.settings import PACKAGE_ROOT, Settings
@@ -58,6 +58,23 @@ def test_a_sample_that_was_deleted_does_not_come_back(settings: Settings, sample
     load(settings, samples, delete="localization")
     logs, _ = load(settings, samples)
     assert logs == ["flat-mapping", "house-mapping"]
+
+
+def test_other_drives_through_a_home_are_localized_once_its_model_is_made(
+    settings: Settings, tmp_path: Path, make_log: Callable[..., bytes]
+) -> None:
+    for name in ("flat-mapping", "flat-changed", "house-localization"):
+        (tmp_path / f"{name}.jsonl.gz").write_bytes(gzip.compress(make_log(name=name)))
+
+    async def main() -> list[str]:
+        async with open_services(settings, ModelEvents()) as services:
+            for _ in range(2):
+                await show_samples(services, tmp_path)
+            return [item.name for item in services.localizations.list_all(None)]
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setitem(SAMPLE_OPTIONS, "regions", 2)
+        assert asyncio.run(main()) == ["flat-changed"]
 
 
 def test_every_sample_that_comes_with_the_product_can_be_read(settings: Settings) -> None:

@@ -196,6 +196,56 @@ def test_the_channel_of_an_unknown_model_closes_with_4404(server):
         assert closed.value.rcvd.code == 4404
 
 
+BELIEF = {
+    "probabilities": {"west": 0.25, "east": 0.5, "gone": 0.05},
+    "unknown": 0.2,
+    "pose": [2.0, 3.0, 1.5707963],
+    "template": [[1.0, 0.0], [0.0, 0.5]],
+    "candidates": {"west": [0.1, 3.1, 0.0, 0.4], "gone": [0.0, 0.0, 0.0, 1.0]},
+}
+
+
+def test_a_step_that_is_played_is_seen_in_its_own_tab_only(server, shows_label):
+    with (
+        server.page("m1", ONE) as page,
+        server.view("m1", ONE) as mine,
+        server.view("m1", TWO) as other,
+    ):
+        for view in (mine, other):
+            view.wait_for(lambda m: m.get("name") == "/lights/sun")
+        page.send(type="playback", belief=BELIEF)
+        for name in ("/robot/body/hull", "/robot/template", "/robot/candidates", "/bars/boxes"):
+            mine.wait_for(lambda m, name=name: m.get("name") == name)
+        mine.wait_for(shows_label("unknown"))
+        page.send(type="playback", belief=BELIEF | {"unknown": 0.15, "template": [[0.0, 0.1]]})
+        mine.wait_for(lambda m: "batched_positions" in (m.get("updates") or {}))
+        mine.wait_for(lambda m: "batched_scales" in (m.get("updates") or {}))
+        assert not {"/bars/boxes", "/robot/body"} & names(other.drain())
+
+
+def test_a_view_that_reconnects_finds_the_step_until_it_is_ended(server):
+    with server.page("m1", ONE) as page:
+        page.send(type="playback", belief=BELIEF)
+        with server.view("m1", ONE) as view:
+            view.wait_for(lambda m: m.get("name") == "/bars/boxes")
+            page.send(type="playback", belief=None)
+            view.wait_for(
+                lambda m: m["type"] == "RemoveSceneNodeMessage" and m["name"] == "/bars/boxes"
+            )
+        with server.view("m1", ONE) as view:
+            view.wait_for(lambda m: m.get("name") == "/lights/sun")
+            assert "/bars/boxes" not in names(view.drain())
+
+
+@pytest.mark.parametrize("wrong", [{"unknown": 1.2}, {"pose": [0, 0]}, {"pose": [1e300, 0, 0]}])
+def test_a_belief_that_cannot_be_drawn_closes_the_channel(server, wrong):
+    with server.page("m1", ONE) as page:
+        page.send(type="playback", belief=BELIEF | wrong)
+        with pytest.raises(ConnectionClosed) as closed:
+            page.wait_for("nothing")
+        assert closed.value.rcvd.code == 1003
+
+
 def test_probabilities_are_bars_in_one_tab(server):
     with server.view("m1", ONE) as mine, server.view("m1", TWO) as other:
         for view in (mine, other):
