@@ -48,7 +48,7 @@ class OdometryConfig:
     """
 
     gain: float = 1.02
-    wall_gain: float = 1.05
+    wall_gain: float = 1.03
     wall_loss: float = 0.9
     weak_heading: float = float(np.radians(4.0))
     weak_position: float = 0.25
