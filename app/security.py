@@ -94,7 +94,7 @@ class BrowserGuard:
         if not host_allowed(headers, self.settings):
             return (
                 f"this server does not answer to the name {headers.get('host', '')[:80]!r}; "
-                "add it with ECHOROOMS_ALLOWED_HOSTS"
+                "if it should, set ECHOROOMS_ALLOWED_HOSTS to that name"
             )
         safe = scope["type"] == "http" and scope["method"] in SAFE_METHODS
         if not safe and not origin_allowed(headers, self.settings):

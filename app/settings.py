@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
+from typing import Annotated
 
 import platformdirs
-from pydantic import Field
-from pydantic_settings import BaseSettings, SettingsConfigDict
+from pydantic import AfterValidator, BeforeValidator, Field
+from pydantic_settings import BaseSettings, NoDecode, SettingsConfigDict
 
 MEBIBYTE = 1 << 20
 LOOPBACK_HOSTS = ("127.0.0.1", "localhost", "::1")
@@ -19,6 +20,21 @@ def _default_data() -> Path:
     return Path(platformdirs.user_data_dir("echorooms", appauthor=False))
 
 
+def _names(given: object) -> object:
+    """Names with commas between them, as an environment variable gives them, one by one."""
+    if isinstance(given, str):
+        return tuple(name.strip().lower() for name in given.split(",") if name.strip())
+    return given
+
+
+def _whole_path(path: Path) -> Path:
+    """The path as it is meant wherever a worker is started."""
+    return path.expanduser().absolute()
+
+
+Names = Annotated[tuple[str, ...], NoDecode, BeforeValidator(_names)]
+
+
 class Settings(BaseSettings):
     """What a server is told. Every field can be set as `ECHOROOMS_NAME` in the environment."""
 
@@ -26,12 +42,15 @@ class Settings(BaseSettings):
 
     host: str = Field("127.0.0.1", description="address to listen on")
     port: int = Field(8000, ge=0, le=65535, description="port to listen on; 0 = any free one")
-    data: Path = Field(default_factory=_default_data, description="folder that keeps everything")
-    allowed_hosts: tuple[str, ...] = Field(
-        (), description="further host names under which the server may be reached"
+    data: Annotated[Path, AfterValidator(_whole_path)] = Field(
+        default_factory=_default_data, description="folder that keeps everything"
     )
-    allowed_origins: tuple[str, ...] = Field(
-        (), description="origins of other pages that may use the API, such as https://example.org"
+    allowed_hosts: Names = Field(
+        (), description="further host names under which the server may be reached, with commas"
+    )
+    allowed_origins: Names = Field(
+        (),
+        description="origins of other pages that may use the API (https://example.org), with commas",
     )
     demo: bool = Field(False, description="load and model the sample logs at start")
 

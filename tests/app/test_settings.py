@@ -15,10 +15,10 @@ def test_the_environment_sets_what_the_command_line_does_not(
 ) -> None:
     monkeypatch.setenv("ECHOROOMS_PORT", "9001")
     monkeypatch.setenv("ECHOROOMS_DATA", str(tmp_path))
-    monkeypatch.setenv("ECHOROOMS_ALLOWED_HOSTS", '["robots.example"]')
+    monkeypatch.setenv("ECHOROOMS_ALLOWED_HOSTS", "robots.example, Pi.local")
     settings = Settings(host="0.0.0.0")
     assert (settings.port, settings.data) == (9001, tmp_path)
-    assert settings.allowed_hosts == ("robots.example",)
+    assert settings.allowed_hosts == ("robots.example", "pi.local")
     assert not settings.loopback_only
 
 
@@ -31,6 +31,14 @@ def test_by_default_it_listens_on_loopback_only() -> None:
 @pytest.mark.parametrize("host", ["127.0.0.1", "localhost", "::1", "127.1.2.3"])
 def test_loopback_addresses_are_known(host: str) -> None:
     assert Settings(host=host).loopback_only
+
+
+def test_the_data_folder_is_a_whole_path(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.chdir(tmp_path)
+    assert Settings(data=Path("~/robots")).data == tmp_path / "robots"
+    assert Settings(data=Path("robots")).data == tmp_path / "robots"
+    assert Settings().data.is_absolute()
 
 
 def test_settings_that_cannot_be_are_refused() -> None:
