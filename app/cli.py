@@ -14,6 +14,7 @@ from app.commands.map import map_log
 from app.commands.model import model
 from app.commands.serve import serve
 from app.commands.simulate import simulate
+from app.commands.stream import stream
 from core.errors import CancelledError, EchoRoomsError, InputError
 
 BAD_USAGE, FAILED, INTERRUPTED = 2, 1, 130
@@ -55,6 +56,7 @@ app.command("simulate")(simulate)
 app.command("map")(map_log)
 app.command("model")(model)
 app.command("localize")(localize)
+app.command("stream")(stream)
 
 
 def main(arguments: list[str] | None = None) -> None:

@@ -94,6 +94,26 @@ async def model_a_log(
     return model, job
 
 
+async def model_again(services: Services, model_id: str, log_id: str) -> JobRecord:
+    """A model that has grown with a live session, to be made from the session's log, queued.
+
+    Raises:
+        NotFound: the model was deleted.
+        Conflict: a job is already at the model.
+    """
+
+    def begin() -> tuple[ModelRecord, JobRecord]:
+        return services.models.get(model_id), _begin(services, model_id)
+
+    model, job = await asyncio.to_thread(begin)
+    inputs = [services.logs.native_file(log_id)]
+    work = Modelling(
+        services, model_id, "model_log", inputs, model.options, [log_id], labels_from=model_id
+    )
+    services.runner.submit(job, work)
+    return job
+
+
 async def model_a_map(
     services: Services, source: Path, name: str, options: Mapping[str, Any]
 ) -> tuple[ModelRecord, JobRecord]:

@@ -30,10 +30,16 @@ class LogStore:
         self._database = database
         self._folder = folder
 
-    def add(self, prepared: Path, summary: Mapping[str, Any]) -> LogRecord:
-        """Takes over a folder that a worker has prepared, as a new log."""
+    def add(
+        self, prepared: Path, summary: Mapping[str, Any], log_id: str | None = None
+    ) -> LogRecord:
+        """Takes over a folder that a worker has prepared, as a new log.
+
+        Args:
+            log_id: an id that was promised before the log was whole (a live session).
+        """
         record = LogRecord(
-            id=new_id(), created=time.time(), size_bytes=size_on_disk(prepared), **summary
+            id=log_id or new_id(), created=time.time(), size_bytes=size_on_disk(prepared), **summary
         )
         self._folder.publish(prepared, self._place(record.id))
         with self._database.write() as connection:

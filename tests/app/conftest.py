@@ -27,7 +27,7 @@ from pathlib import Path
 from app.serve import run
 from app.settings import Settings
 given = json.loads(sys.argv[2])
-settings = Settings(data=Path(sys.argv[1]), port=0, warm_workers=1, **given)
+settings = Settings(data=Path(sys.argv[1]), **{"port": 0, "warm_workers": 1, **given})
 run(settings, lambda url: print(url, flush=True))
 """
 
