@@ -37,7 +37,8 @@ def test_the_view_still_opens_after_it_was_named_and_is_gone_with_its_model(
 def test_a_start_loads_neither_the_viewer_nor_the_heavy_science() -> None:
     program = (
         "import sys; from app.main import create_app; from app.settings import Settings; "
-        "create_app(Settings()); print([m for m in ('viser', 'scipy', 'skimage', 'numba') if m in sys.modules])"
+        "create_app(Settings()); heavy = ('viser', 'scipy', 'skimage', 'numba'); "
+        "print([module for module in heavy if module in sys.modules])"
     )
     found = subprocess.run(
         [sys.executable, "-c", program], capture_output=True, text=True, check=True
