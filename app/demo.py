@@ -22,8 +22,8 @@ SAMPLE_FOLDER = PACKAGE_ROOT / "sample_logs"
 SUFFIX = ".jsonl.gz"
 FOR_MAPPING = "-mapping"
 """A sample `HOME-mapping` is modelled; the others of that home are localized in its model."""
-SAMPLE_OPTIONS: dict[str, Any] = {"mode": "offline", "regions": 10}
-"""Ten regions, as in the paper's own figure of its home (Sect. 5)."""
+SAMPLE_OPTIONS: dict[str, Any] = {}
+"""Autonomous, with every default."""
 LOCALIZATION_OPTIONS: dict[str, Any] = {"method": "default"}
 HEARTBEAT_S = 60.0
 logger = logging.getLogger(__name__)

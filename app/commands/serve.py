@@ -45,4 +45,9 @@ def serve_with(settings: Settings) -> None:
     """Runs the server and says where it is."""
     from app.serve import run
 
-    run(settings, lambda url: typer.echo(f"EchoRooms is at {url}  (Ctrl-C stops it)"))
+    def say(url: str) -> None:
+        typer.echo(f"EchoRooms is at {url}  (Ctrl-C stops it)")
+        if not settings.loopback_only:
+            typer.echo("Anyone who can reach this address can see and change everything.", err=True)
+
+    run(settings, say)
