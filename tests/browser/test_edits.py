@@ -7,6 +7,8 @@ import time
 import pytest
 
 pytestmark = pytest.mark.browser
+MODELLING_S = 300
+"""Seconds; a few on an idle machine."""
 
 
 def made_model(product, drive) -> str:
@@ -14,7 +16,7 @@ def made_model(product, drive) -> str:
     log = product.api.post("/logs", files={"file": (drive.name, drive.read_bytes())}).json()
     body = {"log_id": log["id"], "mode": "offline", "regions": 5}
     made = product.api.post("/models", json=body).json()
-    end = time.monotonic() + 90
+    end = time.monotonic() + MODELLING_S
     while product.api.get(f"/models/{made['id']}").json()["status"] in ("queued", "running"):
         assert time.monotonic() < end
         time.sleep(0.2)
