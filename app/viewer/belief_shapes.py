@@ -19,7 +19,7 @@ UNKNOWN_BAR: Colour = (128, 136, 152)
 BAR_SHARE = 2.3
 """Width of a bar against the radius of its node's sphere: seen from above it frames the sphere."""
 FLOOR_LEVEL, LEAST_HEIGHT = 0.02, 0.03
-UNKNOWN_WIDTH, UNKNOWN_DISTANCE, UNKNOWN_MARGIN = 0.4, 1.0, 0.9
+UNKNOWN_WIDTH, UNKNOWN_DISTANCE, UNKNOWN_MARGIN = 0.4, 0.6, 0.8
 """Metres; then the distance of the bar of `unknown` from the home, and room for its name."""
 LEAST_WIDTH_SHARE = 0.4
 """Of a bar of probability 0 against one of 1: from above, the area tells the probability."""

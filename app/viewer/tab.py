@@ -76,6 +76,7 @@ class Tab:
         self.last_used = time.monotonic()
         self.playback = PlaybackState()
         self._fitted: Fitted | None = None
+        self._aim: Fitted | None = None
         self._travel: asyncio.Task[None] | None = None
         self._settle_due: asyncio.TimerHandle | None = None
 
@@ -241,7 +242,7 @@ class Tab:
         self.camera_moved()
 
     def _stand_at_standard(self, scene: TabScene) -> None:
-        self._fitted = self._standard(scene)
+        self._fitted = self._aim = self._standard(scene)
         scene.stand_at(self._fitted.view, farthest(self._fitted.view, scene.drawing.outline))
 
     def _standard(self, scene: TabScene) -> Fitted:
@@ -257,6 +258,9 @@ class Tab:
         view = camera_view(self.scene.client)
         if self._fitted is not None and not _near(view, self._fitted.view):
             self._fitted = None
+        elif self._fitted is None and self._aim is not None and _near(view, self._aim.view):
+            # A slow browser told where it was before it went there.
+            self._fitted = self._aim
         if self._fitted is not None:
             wider = self.scene.client.camera.aspect / self._fitted.aspect
             if abs(wider - 1) > _SAME_ASPECT:

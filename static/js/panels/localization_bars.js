@@ -30,7 +30,7 @@ export function localizationBars(root) {
     }
     if (gone.length) {
       const sum = gone.reduce((total, id) => total + step.probabilities[id], 0);
-      rows.get(GONE).update(GONE, sum, null, gone.includes(most), false);
+      rows.get(GONE).update("removed", sum, null, gone.includes(most), false);
     }
     rows.get(UNKNOWN).update("unknown", step.unknown, null, most === null, false);
   });

@@ -32,8 +32,9 @@ export function localizationPanel(root) {
 function heading(model, localization) {
   return [
     h("a", { class: "back", href: link.model(model.id) }, icon("left"), "Rooms"),
+    h("h2", {}, "Where is the robot?"),
     h("h3", { title: localization?.name }, localization?.name ?? "…"),
-    localization && h("p", { class: "muted" }, `Where is the robot? · ${methodName(localization.options.method)}${localization.steps ? ` · ${count(localization.steps, "step")}` : ""}`),
+    localization && h("p", { class: "muted" }, [methodName(localization.options.method), localization.steps > 0 && count(localization.steps, "step")].filter(Boolean).join(" · ")),
   ];
 }
 

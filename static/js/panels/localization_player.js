@@ -9,13 +9,19 @@ let timer = null;
 
 export function startPlayer() {
   let shown = null;
-  watch(["localization"], ({ localization }) => {
+  let waits = false; // plays as soon as the 3D view is there
+  watch(["localization", "connection"], ({ localization, connection }) => {
     const id = localization?.steps_list.length ? localization.id : null;
-    if (id === shown) return;
-    shown = id;
-    pause();
-    set({ stepIndex: 0 });
-    if (id && wasAskedFor(id) && !matchMedia("(prefers-reduced-motion: reduce)").matches) playPause();
+    if (id !== shown) {
+      shown = id;
+      pause();
+      set({ stepIndex: 0 });
+      waits = id !== null && wasAskedFor(id) && !matchMedia("(prefers-reduced-motion: reduce)").matches;
+    }
+    if (waits && connection === "ready") {
+      waits = false;
+      if (!get().playing && get().stepIndex === 0) playPause();
+    }
   });
   watch(["localization", "stepIndex"], () => showBelief(beliefOf(currentStep())));
 }

@@ -41,7 +41,7 @@ def test_only_the_greatest_bar_is_red_be_it_a_node_or_unknown(drawing, unknown, 
 def test_the_bar_of_unknown_stands_outside_the_home_but_in_the_picture(drawing):
     plan = plan_bars(drawing, {"west": 0.5}, 0.5)
     assert plan.feet[-1, :2] == pytest.approx(unknown_spot(drawing))
-    assert plan.feet[-1, 0] > drawing.outline[:, 0].max() + 0.5
+    assert plan.feet[-1, 0] > drawing.outline[:, 0].max() + 0.3
     assert with_unknown(drawing)[:, 0].max() > plan.feet[-1, 0] + plan.scales[-1, 0] / 2
 
 
