@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from app.demo import SAMPLE_OPTIONS, load_samples, show_samples
+from app.demo import load_samples, show_samples
 from app.events import ModelEvents
 from app.services import open_services
 from app.settings import PACKAGE_ROOT, Settings
@@ -73,7 +73,7 @@ def test_other_drives_through_a_home_are_localized_once_its_model_is_made(
             return [item.name for item in services.localizations.list_all(None)]
 
     with pytest.MonkeyPatch.context() as patch:
-        patch.setitem(SAMPLE_OPTIONS, "regions", 2)
+        patch.setattr("app.demo.SAMPLE_OPTIONS", {"mode": "offline", "regions": 2})
         assert asyncio.run(main()) == ["flat-changed"]
 
 
