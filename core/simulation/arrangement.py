@@ -12,6 +12,8 @@ Range = tuple[float, float]
 
 TRIES = 40
 """Random places looked at for a piece in the middle of a room."""
+TWO_CHAIRS = 0.5
+"""Share of tables with two chairs pulled out rather than one; the others are under the table."""
 CHAIR = 0.45
 """Side of a chair (m)."""
 STRETCHABLE = {"bookshelf", "counter", "sideboard", "wardrobe"}
@@ -153,7 +155,7 @@ def dining(layout: RoomLayout, rng: np.random.Generator) -> None:
 def _set_table(
     layout: RoomLayout, rng: np.random.Generator, place: Box, wide: bool, reach: float
 ) -> None:
-    """The table and its chairs inside `place`."""
+    """The table inside `place`, and the chairs that are not pushed under it."""
     table = (
         Box(place.x0, place.y0 + reach, place.x1, place.y1 - reach)
         if wide
@@ -162,17 +164,19 @@ def _set_table(
     layout.add(piece("dining table", table))
     low, high = (place.x0, place.x1) if wide else (place.y0, place.y1)
     seats = (low + 0.27 * (high - low), low + 0.73 * (high - low))
-    for side in (0, 1):
-        for seat in seats if rng.random() < 0.3 else ((low + high) / 2,):
-            pulled = rng.uniform(0.0, 0.1)
-            start = _cm(seat - CHAIR / 2)
-            if wide:
-                y = place.y0 + pulled if side == 0 else place.y1 - CHAIR - pulled
-                chair = Box(start, _cm(y), start + CHAIR, _cm(y) + CHAIR)
-            else:
-                x = place.x0 + pulled if side == 0 else place.x1 - CHAIR - pulled
-                chair = Box(_cm(x), start, _cm(x) + CHAIR, start + CHAIR)
-            layout.add(piece("chair", chair))
+    pulled_out = [(side, seat) for side in (0, 1) for seat in seats]
+    count = 1 + int(rng.random() < TWO_CHAIRS)
+    for choice in rng.permutation(len(pulled_out))[:count]:
+        side, seat = pulled_out[int(choice)]
+        pulled = rng.uniform(0.0, 0.1)
+        start = _cm(seat - CHAIR / 2)
+        if wide:
+            y = place.y0 + pulled if side == 0 else place.y1 - CHAIR - pulled
+            chair = Box(start, _cm(y), start + CHAIR, _cm(y) + CHAIR)
+        else:
+            x = place.x0 + pulled if side == 0 else place.x1 - CHAIR - pulled
+            chair = Box(_cm(x), start, _cm(x) + CHAIR, start + CHAIR)
+        layout.add(piece("chair", chair))
 
 
 def desk(layout: RoomLayout, rng: np.random.Generator) -> None:

@@ -41,7 +41,8 @@ class DriveConfig:
         mapping_length: a mapping tour goes on until it is this long (m).
         localization_length: shortest and longest localization drive (m).
         spin_turns: turns on the spot of a "spin".
-        stuck_after: scans without progress after which a goal is given up.
+        bumps: a goal is given up when the robot runs into something more often on its way there.
+        back_off: scans that it then drives backwards.
         kidnap_apart: a kidnapped robot is carried at least this far (m).
         cruise: how the robot is driven.
     """
@@ -50,7 +51,8 @@ class DriveConfig:
     mapping_length: float = 92.0
     localization_length: tuple[float, float] = (25.0, 40.0)
     spin_turns: int = 5
-    stuck_after: int = 12
+    bumps: int = 3
+    back_off: int = 4
     kidnap_apart: float = 3.0
     cruise: Cruise = field(default_factory=Cruise)
 
@@ -199,17 +201,24 @@ class _Drive:
         """Drives to a goal, gives up when stuck, or leaves off when something happens."""
         route = self._planner.route(self._robot.pose[:2], goal)
         follower = PathFollower(route, self._config.cruise)
-        idle = 0
-        while idle < self._config.stuck_after:
+        bumps = 0
+        while bumps <= self._config.bumps:
             command = follower.command(self._robot.pose)
             if command is None or (stop_at_length and self._distance >= length):
                 break
             self._step(*command)
-            idle = idle + 1 if self._robot.blocked else 0
+            if self._robot.blocked:
+                bumps += 1
+                self._back_off()
             if not self._happened and self._distance >= length / 2:
                 self._happen()
                 break
         self._progress(min(self._distance / length, 1.0), "driving")
+
+    def _back_off(self) -> None:
+        """Away from what the robot ran into, the way it came."""
+        for _ in range(self._config.back_off):
+            self._step(-self._config.cruise.speed / 2, 0.0)
 
     def _step(self, speed: float, turn_rate: float) -> None:
         before = self._robot.pose

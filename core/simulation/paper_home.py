@@ -42,7 +42,6 @@ FURNITURE = (
     ("plant", Box(7.4, 8.15, 7.8, 8.55)),
     ("dining table", Box(5.1, 1.9, 6.5, 2.8)),
     ("chair", Box(5.55, 2.95, 6.0, 3.4)),
-    ("chair", Box(5.55, 1.3, 6.0, 1.75)),
     ("sideboard", Box(3.75, 0.5, 4.2, 2.3)),
     ("chest", Box(10.8, 3.75, 11.3, 5.15)),
     # child's room

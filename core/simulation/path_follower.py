@@ -17,7 +17,7 @@ class Cruise:
 
     speed: float = 0.17
     turn_rate: float = 0.6
-    look_ahead: float = 0.3
+    look_ahead: float = 0.2
     turn_on_the_spot: float = 0.7
     arrived: float = 0.08
     gain: float = 2.5

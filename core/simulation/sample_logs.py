@@ -12,7 +12,7 @@ from core.sensing.robot_log import RobotLog
 from core.simulation.drive import simulate
 
 SAMPLES: dict[str, Callable[[], RobotLog]] = {
-    "paper-mapping": lambda: simulate("paper", seed=8),
+    "paper-mapping": lambda: simulate("paper", seed=11),
     "paper-localization": lambda: simulate("paper", seed=21, tour="localization"),
     "paper-changed": lambda: simulate("paper", seed=22, tour="localization", changed=True),
     "flat-mapping": lambda: simulate("random-11", seed=1, ring=RING_PRESETS["circle-8"]),

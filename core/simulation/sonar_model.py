@@ -34,7 +34,7 @@ class SonarModel:
     threshold_spread: float = 0.35
     mirror_loss_with_range: float = 1.0
     scatter_loss_with_range: float = 1.5
-    edge_strength: float = 0.06
+    edge_strength: float = 0.12
     capture: float = 0.03
     noise: float = 0.010
     noise_per_metre: float = 0.005

@@ -11,7 +11,7 @@ from core.geometry import FloatArray
 from core.simulation.home import Home
 from core.simulation.route_planner import RoutePlanner
 
-NEAR_ENOUGH = 0.9
+NEAR_ENOUGH = 0.85
 """A mapping tour comes this near to every place that it can reach (m)."""
 ROAM_APART = 2.0
 """Goals of a random drive are at least this far apart (m)."""

@@ -47,6 +47,15 @@ def test_the_robot_keeps_clear_of_everything(paper: Home, paper_tour: RobotLog) 
     assert nearest > paper_tour.ring.robot_radius
 
 
+@pytest.mark.parametrize("seed", [7, 12])
+def test_the_robot_never_dawdles(seed: int) -> None:
+    log = simulate("paper", seed=seed, tour="localization")
+    still = np.hypot(*np.diff(truth_poses(log)[:, :2], axis=0).T) < 0.002
+    longest = max(len(run) for run in "".join("x" if s else " " for s in still).split(" "))
+    assert longest * 0.25 < 6.0  # seconds: half a turn on the spot
+    assert 0.12 < travelled(truth_poses(log))[-1] / log.duration_s < 0.17
+
+
 def test_a_localization_drive_starts_anywhere_and_its_odometry_at_zero() -> None:
     one = simulate("paper", seed=5, tour="localization", config=SHORT)
     two = simulate("paper", seed=6, tour="localization", config=SHORT)
