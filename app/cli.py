@@ -12,6 +12,7 @@ from app.commands.demo import demo
 from app.commands.localize import localize
 from app.commands.map import map_log
 from app.commands.model import model
+from app.commands.reproduce import reproduce
 from app.commands.serve import serve
 from app.commands.simulate import simulate
 from app.commands.stream import stream
@@ -57,6 +58,7 @@ app.command("map")(map_log)
 app.command("model")(model)
 app.command("localize")(localize)
 app.command("stream")(stream)
+app.command("reproduce")(reproduce)
 
 
 def main(arguments: list[str] | None = None) -> None:

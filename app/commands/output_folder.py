@@ -15,17 +15,20 @@ MARK = "map.yaml"
 
 
 @contextlib.contextmanager
-def complete_folder(target: Path) -> Iterator[Path]:
+def complete_folder(target: Path, mark: str = MARK, what: str = "map or model") -> Iterator[Path]:
     """A fresh folder that takes the place of `target` when the work succeeds.
+
+    Args:
+        target: the folder that the user chose.
+        mark: name of the file by which an earlier result is known.
+        what: kind of folder, for the message.
 
     Raises:
         InputError: `target` exists and is something else than an earlier result or an empty folder.
     """
     target = target.absolute()
-    if target.exists() and not replaceable(target):
-        raise InputError(
-            f"{target.name} exists and is no map or model folder: choose another --out"
-        )
+    if target.exists() and not replaceable(target, mark):
+        raise InputError(f"{target.name} exists and is no {what} folder: choose another --out")
     target.parent.mkdir(parents=True, exist_ok=True)
     fresh = Path(tempfile.mkdtemp(prefix=f".{target.name}-", dir=target.parent))
     fresh.chmod(0o755)
@@ -42,6 +45,6 @@ def complete_folder(target: Path) -> Iterator[Path]:
         shutil.rmtree(fresh, ignore_errors=True)
 
 
-def replaceable(folder: Path) -> bool:
+def replaceable(folder: Path, mark: str = MARK) -> bool:
     """Whether a folder is an earlier result or empty."""
-    return folder.is_dir() and ((folder / MARK).is_file() or not any(folder.iterdir()))
+    return folder.is_dir() and ((folder / mark).is_file() or not any(folder.iterdir()))
