@@ -47,7 +47,7 @@ class OdometryConfig:
         weak_heading, weak_position: stretches whose pose is less certain than this (rad, m) are named.
     """
 
-    gain: float = 1.02
+    gain: float = 1.04
     wall_gain: float = 1.03
     wall_loss: float = 0.9
     weak_heading: float = float(np.radians(4.0))
