@@ -226,6 +226,7 @@ def test_the_page_can_be_used_without_a_mouse(product, open_tab):
     assert page.evaluate("() => document.activeElement.className") == "skip-link"
     names = page.evaluate(
         "() => [...document.querySelectorAll('button, input:not([type=file]), a')]"
+        ".filter((e) => e.checkVisibility())"
         ".filter((e) => !(e.ariaLabel || e.textContent.trim() || e.labels?.length)).length"
     )
     assert names == 0
