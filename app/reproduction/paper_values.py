@@ -7,19 +7,21 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class PrintedValue:
-    """A value that the paper prints: where, of what, and `key`, the name of ours in results.json."""
+    """A value that the paper prints: where, of what, and `key`, the name of ours in results.json,
+    whose unit is SI."""
 
     section: str
     what: str
     printed: str
     key: str
+    unit: str = ""
 
 
 PRINTED_VALUES = (
-    PrintedValue("5", "size of the home", "11.4 m x 8.7 m", "paper_home.size_m"),
-    PrintedValue("5", "speed of the robot", "about 0.15 m/s", "paper_home.speed_m_s"),
-    PrintedValue("5", "rate of the sonar scans", "4 Hz", "paper_home.scan_rate_hz"),
-    PrintedValue("5", "size of a grid", "5 cm", "paper_home.resolution_m"),
+    PrintedValue("5", "size of the home", "11.4 m x 8.7 m", "paper_home.size_m", "m"),
+    PrintedValue("5", "speed of the robot", "about 0.15 m/s", "paper_home.speed_m_s", "m/s"),
+    PrintedValue("5", "rate of the sonar scans", "4 Hz", "paper_home.scan_rate_hz", "Hz"),
+    PrintedValue("5", "size of a grid", "5 cm", "paper_home.resolution_m", "m"),
     PrintedValue(
         "5.1, Fig. 13", "subregions, offline (given)", "10", "paper_home.models.offline.nodes"
     ),

@@ -32,7 +32,12 @@ NAMES = {
 def printed_table(results: dict[str, Any]) -> Table:
     """The values that the paper prints, ours beside them."""
     rows = tuple(
-        (value["section"], value["what"], value["printed"], _text(value["ours"]))
+        (
+            value["section"],
+            value["what"],
+            value["printed"],
+            f"{_text(value['ours'])} {value['unit']}",
+        )
         for value in results["paper_values"]
     )
     return Table(

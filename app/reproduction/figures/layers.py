@@ -121,4 +121,4 @@ def as_map(figure: go.Figure, row: int | None = None, col: int | None = None) ->
     figure.update_xaxes(constrain="domain", ticksuffix=" m", **plain, **place)
     figure.update_yaxes(constrain="domain", **plain, **place)
     for axis in figure.select_yaxes(**place):
-        axis.scaleanchor = axis.anchor
+        axis.scaleanchor = axis.anchor or "x"

@@ -8,7 +8,15 @@ import numpy as np
 import plotly.graph_objects as go
 from plotly.subplots import make_subplots
 
-from app.reproduction.figures.colours import PATH, REJECTED, TEMPLATE, TRUTH, UPDATED, region_colour
+from app.reproduction.figures.colours import (
+    PATH,
+    REJECTED,
+    TEMPLATE,
+    TRUTH,
+    UNKNOWN_PLACE,
+    UPDATED,
+    region_colour,
+)
 from app.reproduction.figures.layers import (
     LAYOUT,
     PANEL_HEIGHT,
@@ -22,8 +30,10 @@ from core.geometry import transform_points
 from core.localization.localization_step import LocalizationStep
 from core.topology import Model
 
-BARS_SHARE = (0.62, 0.38)
-"""Heights of maps and bars in a figure of sampled steps."""
+COLUMNS, PAIR_HEIGHT = 3, 560
+"""Steps side by side, and pixels of a map with its bars, in a figure of sampled steps."""
+MAP_SHARE, BARS_SHARE = 0.66, 0.34
+"""Heights of a map and its bars."""
 
 
 def template_figure(step: LocalizationStep) -> go.Figure:
@@ -62,28 +72,46 @@ def steps_figure(
     model: Model, drive: LocalizedDrive, steps: tuple[LocalizationStep, ...]
 ) -> go.Figure:
     """Figs. 19 and 24: template on the map at the most probable place; probability of every node."""
-    titles = [f"step {s.step}" + ("" if s.updated else ", not updated") for s in steps]
+    pairs = (len(steps) + COLUMNS - 1) // COLUMNS
     figure = make_subplots(
-        2, len(steps), subplot_titles=titles, row_heights=BARS_SHARE, vertical_spacing=0.06
+        2 * pairs,
+        COLUMNS,
+        subplot_titles=_titles(steps, pairs),
+        row_heights=[MAP_SHARE, BARS_SHARE] * pairs,
+        vertical_spacing=0.14 / (2 * pairs),
     )
-    colours = {node.id: region_colour(node.region) for node in model.topology.nodes}
-    for col, step in enumerate(steps, 1):
+    for i, step in enumerate(steps):
+        row, col = 2 * (i // COLUMNS) + 1, i % COLUMNS + 1
         truth = drive.truth[int(np.abs(drive.log.t - step.t).argmin())]
         layers = [
             grid_layer(model.grid),
-            points_layer(transform_points(step.pose, step.template), size=2.5),
+            points_layer(transform_points(step.pose, step.template), size=3),
             robot_layer(truth, TRUTH),
             robot_layer(step.pose, TEMPLATE),
         ]
-        figure.add_traces(layers, rows=1, cols=col)
-        as_map(figure, 1, col)
-        names = [*step.probabilities, "unknown"]
-        values = [*step.probabilities.values(), step.unknown]
-        shown = [colours.get(name, "#888") for name in names]
-        bars = go.Bar(x=names, y=[round(v, 5) for v in values], marker_color=shown)
-        figure.add_trace(bars, row=2, col=col)
-        figure.update_yaxes(range=[0, 1], row=2, col=col)
-    return figure.update_layout(height=520, **LAYOUT)
+        figure.add_traces(layers, rows=row, cols=col)
+        as_map(figure, row, col)
+        figure.add_trace(_probability_bars(model, step), row=row + 1, col=col)
+        figure.update_yaxes(range=[0, 1], row=row + 1, col=col)
+        figure.update_xaxes(tickfont_size=10, row=row + 1, col=col)
+    return figure.update_layout(height=PAIR_HEIGHT * pairs, **LAYOUT)
+
+
+def _titles(steps: tuple[LocalizationStep, ...], pairs: int) -> list[str]:
+    """Titles of the maps; the bars below have none."""
+    titles = [""] * (2 * pairs * COLUMNS)
+    for i, step in enumerate(steps):
+        said = f"step {step.step}" + ("" if step.updated else ", not updated")
+        titles[2 * COLUMNS * (i // COLUMNS) + i % COLUMNS] = said
+    return titles
+
+
+def _probability_bars(model: Model, step: LocalizationStep) -> go.Bar:
+    colours = {node.id: region_colour(node.region) for node in model.topology.nodes}
+    names = [*step.probabilities, "unknown"]
+    values = [*step.probabilities.values(), step.unknown]
+    shown = [colours.get(name, UNKNOWN_PLACE) for name in names]
+    return go.Bar(x=names, y=[round(v, 5) for v in values], marker_color=shown)
 
 
 def max_probability_figure(drive: LocalizedDrive, method: str) -> go.Figure:
