@@ -123,7 +123,7 @@ def localization_section(
     text = (
         "As in the paper, the robot is localized in the model of Fig. 14 (as in the paper) and starts "
         f"anywhere in the home; {len(model.topology.nodes)} nodes. Steps that did not change the "
-        "belief are orange.",
+        "belief are orange. A node that holds several rooms is easily right: see Fig. 14.",
     )
     return Section(f"localization-{kind}", f"{number} Localization, {what}", text, tuple(parts))
 

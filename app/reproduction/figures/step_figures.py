@@ -32,8 +32,8 @@ from core.topology import Model
 
 COLUMNS, PAIR_HEIGHT = 3, 560
 """Steps side by side, and pixels of a map with its bars, in a figure of sampled steps."""
-MAP_SHARE, BARS_SHARE = 0.66, 0.34
-"""Heights of a map and its bars."""
+MAP_SHARE, BARS_SHARE, GAP = 0.66, 0.34, 0.3
+"""Heights of a map and its bars, and of all gaps together, as shares."""
 
 
 def template_figure(step: LocalizationStep) -> go.Figure:
@@ -78,7 +78,7 @@ def steps_figure(
         COLUMNS,
         subplot_titles=_titles(steps, pairs),
         row_heights=[MAP_SHARE, BARS_SHARE] * pairs,
-        vertical_spacing=0.14 / (2 * pairs),
+        vertical_spacing=GAP / (2 * pairs),
     )
     for i, step in enumerate(steps):
         row, col = 2 * (i // COLUMNS) + 1, i % COLUMNS + 1
