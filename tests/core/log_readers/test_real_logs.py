@@ -100,14 +100,16 @@ def test_memory_is_a_few_times_the_size_of_the_file_at_most(data_dir: Path, tmp_
             for j, scan in enumerate(scans):
                 t = (i * len(scans) + j) * 0.25
                 file.write(b'{"t":%.2f%s' % (t, scan[scan.index(b",") :]))
+    status = Path("/proc/self/status")
+    if not status.is_file():
+        pytest.skip("the peak memory of a process is read from /proc, which this system lacks")
     program = (
-        "import resource, sys; from pathlib import Path; from core.log_readers import read_log; "
+        "import sys; from pathlib import Path; from core.log_readers import read_log; "
         "read_log(Path(sys.argv[1])); "
-        "print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)"
+        "print(Path('/proc/self/status').read_text().split('VmHWM:')[1].split()[0])"
     )
     done = subprocess.run(
         [sys.executable, "-c", program, str(path)], capture_output=True, text=True, check=True
     )
     assert path.stat().st_size > 22e6
-    kilobytes = int(done.stdout) // (1024 if sys.platform == "darwin" else 1)
-    assert kilobytes < 200_000
+    assert int(done.stdout) < 200_000  # kB
