@@ -1,7 +1,10 @@
-"""Makes `static/docs/screenshot.png` of the running product: python tests/browser/make_screenshot.py
+"""Makes the README's pictures of the running product.
+
+    python tests/browser/make_screenshot.py
+    python tests/browser/make_screenshot.py --log corridor.zip --out static/docs/corridor.png
 
 A drive through a furnished home is simulated, uploaded and modelled; the rooms get the names that the
-home has; Chromium takes the picture.
+home has; Chromium takes the picture. With `--log` that log is taken instead, and nothing is named.
 """
 
 from __future__ import annotations
@@ -38,29 +41,33 @@ def main() -> None:
     parser.add_argument("--home", default="random-17")
     parser.add_argument("--seed", type=int, default=3)
     parser.add_argument("--regions", type=int, default=9)
+    parser.add_argument("--log", type=Path)
     parser.add_argument("--dark", action="store_true")
     parser.add_argument("--out", type=Path, default=TARGET)
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as folder:
-        log = simulate(options.home, seed=options.seed)
-        path = Path(folder) / "Simulated flat.jsonl.gz"
-        write_native(log, path)
+        log, path = None, options.log
+        if path is None:
+            log = simulate(options.home, seed=options.seed)
+            path = Path(folder) / "Simulated flat.jsonl.gz"
+            write_native(log, path)
         product = _conftest().start_product(Path(folder) / "data")
         try:
             with httpx.Client(base_url=f"{product.url}/api", timeout=120) as api:
-                model = _make_model(api, path, options.regions)
-                _name_rooms(api, model, build_home(options.home), log)
+                asked = {"name": "Simulated flat", "mode": "offline", "regions": options.regions}
+                model = _make_model(api, path, asked if log else {})
+                if log:
+                    _name_rooms(api, model, build_home(options.home), log)
             picture = _photograph(f"{product.url}/#/models/{model}", options.dark)
         finally:
             product.stop()
     _save(picture, options.out)
 
 
-def _make_model(api: httpx.Client, log: Path, regions: int) -> str:
+def _make_model(api: httpx.Client, log: Path, asked: dict[str, object]) -> str:
     with log.open("rb") as file:
         log_id = api.post("/logs", files={"file": file}).raise_for_status().json()["id"]
-    body = {"log_id": log_id, "name": "Simulated flat", "mode": "offline", "regions": regions}
-    made = api.post("/models", json=body).raise_for_status().json()
+    made = api.post("/models", json={"log_id": log_id, **asked}).raise_for_status().json()
     while (job := api.get(f"/jobs/{made['job_id']}").json())["status"] in ("queued", "running"):
         time.sleep(0.5)
     if job["status"] != "done":
