@@ -110,31 +110,22 @@ def simulate(
         raise UsageError(f"the seed {seed} is negative; take a number from 0")
     if tour not in TOURS:
         raise UsageError(f"tour {tour!r} is not one of {', '.join(TOURS)}")
+    errors, ring = odometry_errors(odometry), ring or RING_PRESETS["paper-12"]
     home = build_home(home) if isinstance(home, str) else home
+    home = changed_home(home, seed) if changed else home
     key = [seed, zlib.crc32(f"{home.name}/{tour}".encode())]
     goals_rng, pose_rng = np.random.default_rng([*key, 1]).spawn(2)
-    if changed:
-        home = changed_home(home, seed)
-    ring = ring or RING_PRESETS["paper-12"]
     planner = RoutePlanner(home, ring.robot_radius)
     start = random_pose(planner, pose_rng)
-    robot = SimulatedRobot(
-        home,
-        ring,
-        start,
-        errors=odometry_errors(odometry),
-        seed=[*key, 2],
-        sonar=sonar,
-        odometry_start=start if tour == "mapping" else np.zeros(3),
-    )
-    incidents = Incidents(kidnap, jump)
-    drive = _Drive(robot, planner, config, incidents, pose_rng, progress)
+    origin = start if tour == "mapping" else np.zeros(3)
+    robot = SimulatedRobot(home, ring, start, origin, errors=errors, seed=[*key, 2], sonar=sonar)
+    drive = _Drive(robot, planner, config, Incidents(kidnap, jump), pose_rng, progress)
+    roaming = roaming_goals(planner, start, goals_rng)
     if tour == "mapping":
         drive.visit(mapping_goals(home, planner, lambda: drive.driven), config.mapping_length)
-        drive.roam(roaming_goals(planner, start, goals_rng), config.mapping_length)
+        drive.roam(roaming, config.mapping_length)
     elif tour == "localization":
-        length = float(goals_rng.uniform(*config.localization_length))
-        drive.roam(roaming_goals(planner, start, goals_rng), length)
+        drive.roam(roaming, float(goals_rng.uniform(*config.localization_length)))
     else:
         drive.spin()
     return drive.log(f"{home.name} home, {tour} {seed}")

@@ -34,11 +34,11 @@ class SimulatedRobot:
         home: Home,
         ring: SonarRing,
         pose: FloatArray,
+        odometry_start: FloatArray | None = None,
         *,
         errors: OdometryErrors,
         seed: int | list[int],
         sonar: SonarModel | None = None,
-        odometry_start: FloatArray | None = None,
     ) -> None:
         """A robot at `pose`; its odometry starts at `odometry_start`, by default at the true pose."""
         sonar_rng, odometry_rng = np.random.default_rng(seed).spawn(2)
