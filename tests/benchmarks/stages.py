@@ -50,7 +50,9 @@ def seconds(call: Callable[[], object], runs: int) -> float:
 def command(*arguments: object, cache: Path | None = None) -> None:
     """Runs the command line in a process of its own."""
     environment = os.environ | ({"NUMBA_CACHE_DIR": str(cache)} if cache else {})
-    subprocess.run([*COMMAND, *map(str, arguments)], check=True, env=environment, stdout=subprocess.DEVNULL)
+    subprocess.run(
+        [*COMMAND, *map(str, arguments)], check=True, env=environment, stdout=subprocess.DEVNULL
+    )
 
 
 def main() -> None:
@@ -63,11 +65,11 @@ def main() -> None:
         work = Path(name)
         log = work / "paper.jsonl.gz"
         command("simulate", "paper", "--out", log)
-        print(f"{'stage':<42}{'median s':>9}")
+        print(f"{'stage':<46}{'median s':>9}")
         for stage, taken in stages(log, work, options.runs, options.fresh):
-            print(f"{stage:<42}{taken:>9.2f}")
+            print(f"{stage:<46}{taken:>9.2f}")
     peak = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
-    print(f"{'largest process, MB':<42}{peak:>9.0f}")
+    print(f"{'largest process, MB':<46}{peak:>9.0f}")
 
 
 def stages(log: Path, work: Path, runs: int, fresh: bool) -> list[tuple[str, float]]:
@@ -86,7 +88,7 @@ def stages(log: Path, work: Path, runs: int, fresh: bool) -> list[tuple[str, flo
     result = map_log(drive, trajectory)
     floor = largest_component(result.grid.free)
     regions = segment_offline(floor, 10)
-    model_log(drive, ModellingOptions(regions=10))
+    model_log(drive, ModellingOptions(regions=10, odometry="raw"))
     rows = [("calibration kernel", seconds(calibration_kernel, runs))]
     rows.append(("read the log", seconds(lambda: read_log(log), runs)))
     mapping = seconds(lambda: map_log(drive, trajectory), runs)
@@ -95,9 +97,15 @@ def stages(log: Path, work: Path, runs: int, fresh: bool) -> list[tuple[str, flo
     rows.append(("cut into 10 regions", seconds(lambda: segment_offline(floor, 10), runs)))
     rows.append(("topology", seconds(lambda: topology_of(result.grid, regions), runs)))
     rows.append(("echorooms --help", seconds(lambda: command("--help"), runs)))
-    rows.append(("echorooms map", seconds(lambda: command("map", log, "--out", work / "m"), runs)))
-    ten = ("model", log, "--regions", 10, "--out", work / "model")
-    rows.append(("echorooms model --regions 10", seconds(lambda: command(*ten), runs)))
+    raw = ("--odometry", "raw")
+    plain = ("map", log, "--out", work / "m", *raw)
+    rows.append(("echorooms map --odometry raw", seconds(lambda: command(*plain), runs)))
+    ten = ("model", log, "--regions", 10, "--out", work / "model", *raw)
+    rows.append(
+        ("echorooms model --regions 10 --odometry raw", seconds(lambda: command(*ten), runs))
+    )
+    full = ("model", log, "--out", work / "full")
+    rows.append(("echorooms model, all defaults", seconds(lambda: command(*full), 1)))
     if fresh:
         first = seconds(lambda: command(*ten, cache=work / "cache"), 1)
         rows.append(("echorooms model, first after installation", first))
