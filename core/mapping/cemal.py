@@ -54,8 +54,8 @@ class CemalConfig:
     """
 
     resolution: float = DEFAULT_RESOLUTION
-    conflict_clearance: float = 0.14
-    free_clearance: float = 0.05
+    conflict_clearance: float = 0.10
+    free_clearance: float = 0.06
     arc_half_thickness: float = 0.05
     max_rounds: int = 60
 
