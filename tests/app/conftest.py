@@ -132,7 +132,7 @@ def upload() -> Callable[..., dict[str, Any]]:
 def wait_for_job() -> Callable[..., dict[str, Any]]:
     """Waits until a job has ended and returns it."""
 
-    def wait(client: TestClient, job_id: str, seconds: float = 60) -> dict[str, Any]:
+    def wait(client: TestClient, job_id: str, seconds: float = 600) -> dict[str, Any]:
         deadline = time.monotonic() + seconds
         while time.monotonic() < deadline:
             job: dict[str, Any] = client.get(f"/api/jobs/{job_id}").json()
