@@ -91,6 +91,18 @@ def matters_since(i, cell, p, old, new, empty, empty_by, more, chosen, stale, en
 
 
 @numba.njit(cache=True)
+def covered_until(cell, without, empty, empty_by, end_of):
+    """The last round in which one of the named calls the cell empty, one reading left aside."""
+    last = NOT_YET
+    for k in range(LOUDEST):
+        if empty[cell, k] <= 0:
+            break
+        if empty_by[cell, k] != without:
+            last = max(last, end_of[empty_by[cell, k]])
+    return last
+
+
+@numba.njit(cache=True)
 def insert(cell, pressure, i, empty, empty_by, more):
     """Names a new voice among the loudest of a cell, or counts it."""
     n = 0

@@ -10,6 +10,7 @@ from core.mapping.cell_voices import (
     ask_around,
     cells_of,
     centre_of,
+    covered_until,
     enlist,
     in_arc,
     loudest,
@@ -27,7 +28,7 @@ from core.mapping.conflict_ledger import (
     PHASE,
     SEGMENTS,
 )
-from core.mapping.conflict_wins import attacks_on, first_attack, rewrite_wins, wins_differ
+from core.mapping.conflict_wins import attacks_on, first_attack, hangs_on, rewrite_wins, wins_differ
 
 
 @numba.njit(cache=True)
@@ -190,7 +191,7 @@ def _spread(i, n, old, limits, cells, beams, arcs_of, reach_of, queue, sensor, s
     empty, empty_by, end_of = cells.empty, cells.empty_by, beams.end
     more, chosen, stale = cells.more, cells.chosen, cells.stale
     changed, tiles = np.empty(n, np.int64), np.empty(n, np.int64)
-    starts = np.empty(n, np.int16)
+    starts, covered = np.empty(n, np.int16), np.empty(n, np.int16)
     count = 0
     for k in range(n):
         cell, d = scratch[0][k], scratch[1][k]
@@ -204,6 +205,7 @@ def _spread(i, n, old, limits, cells, beams, arcs_of, reach_of, queue, sensor, s
         if since > high:
             continue
         starts[count], changed[count], tiles[count] = since, cell, tile
+        covered[count] = covered_until(cell, i, empty, empty_by, end_of)
         count += 1
         if since == 0:
             w = cells.watcher[cell]
@@ -220,7 +222,9 @@ def _spread(i, n, old, limits, cells, beams, arcs_of, reach_of, queue, sensor, s
                 tiles,
                 changed,
                 starts,
+                covered,
                 done,
+                new > old,
                 limits,
                 beams,
                 arcs_of,
@@ -231,9 +235,22 @@ def _spread(i, n, old, limits, cells, beams, arcs_of, reach_of, queue, sensor, s
 
 @numba.njit(cache=True)
 def _call_arcs(
-    tile, first, last, tiles, changed, starts, done, limits, beams, arcs_of, queue, sensor
+    tile,
+    first,
+    last,
+    tiles,
+    changed,
+    starts,
+    covered,
+    done,
+    louder,
+    limits,
+    beams,
+    arcs_of,
+    queue,
+    sensor,
 ):
-    """Calls the readings in conflict whose arcs cover changed cells of a tile."""
+    """Calls the readings in conflict whose arcs cover changed cells of a tile, if that may matter."""
     pose, axis, range_m = beams.pose, beams.axis, beams.range_m
     opened, end_of, waiting = beams.opened, beams.end, queue.since
     items, filled, following = arcs_of.items, arcs_of.filled, arcs_of.following
@@ -255,6 +272,8 @@ def _call_arcs(
             for m in here[:count]:
                 at = waiting[other]
                 if latest < starts[m] or (0 <= at <= starts[m]):
+                    continue
+                if louder and not hangs_on(other, changed[m], starts[m], covered[m], beams):
                     continue
                 x, y = centre_of(changed[m], sensor[2], sensor[3])
                 if in_arc(other, x, y, limits[2], pose, axis, range_m):

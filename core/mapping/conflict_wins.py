@@ -67,7 +67,7 @@ def rewrite_wins(i, count, cell_of, span, loud, limits, cells, beams, reach_of, 
         )
         _unlink(i, m, cells, beams)
         if not same:
-            _call_attacked(i, m, True, limits, beams, reach_of, queue, sensor)
+            _call_attacked(i, m, True, limits, cells, beams, reach_of, queue, sensor)
     for m in range(count):
         same = m < beams.win_count[i] and (
             beams.win_cell[i, m] == cell_of[m]
@@ -83,7 +83,7 @@ def rewrite_wins(i, count, cell_of, span, loud, limits, cells, beams, reach_of, 
             beams.win_before[head // SEGMENTS, head % SEGMENTS] = node
         cells.guard[cell_of[m]] = node
         if not same:
-            _call_attacked(i, m, False, limits, beams, reach_of, queue, sensor)
+            _call_attacked(i, m, False, limits, cells, beams, reach_of, queue, sensor)
     beams.win_count[i] = count
 
 
@@ -99,10 +99,16 @@ def _unlink(i, m, cells, beams):
 
 
 @numba.njit(cache=True)
-def _call_attacked(i, m, spared, limits, beams, reach_of, queue, sensor):
-    """Calls those whose end a segment of winner i has caused (spared) or may cause."""
+def _call_attacked(i, m, spared, limits, cells, beams, reach_of, queue, sensor):
+    """Calls those whose end a segment of winner i has caused (spared) or may cause.
+
+    Whom another winner attacks at the same cell in all these rounds, it leaves alone.
+    """
     cell, loudness = beams.win_cell[i, m], beams.win_loudness[i, m]
     begin, end = beams.win_span[i, m, 0], beams.win_span[i, m, 1]
+    second = _loudest_beside(i, cell, begin, end, cells, beams)
+    if second >= loudness:
+        return
     chunk = reach_of.head[tile_of(cell, sensor[3][1])]
     x, y = centre_of(cell, sensor[2], sensor[3])
     pose, axis, range_m, sonar, gain = beams.pose, beams.axis, beams.range_m, beams.sonar, sensor[1]
@@ -114,6 +120,34 @@ def _call_attacked(i, m, spared, limits, beams, reach_of, queue, sensor):
             concerned = begin <= at < end if spared else at > begin
             if concerned and other != i:
                 p = pressure_at(other, x, y, limits[0], pose, axis, range_m, sonar, gain)
-                if p > 0 and np.float32(p) < loudness:
+                if p > 0 and second <= np.float32(p) < loudness:
                     call(other, begin, queue)
         chunk = reach_of.following[chunk]
+
+
+@numba.njit(cache=True)
+def _loudest_beside(i, cell, begin, end, cells, beams):
+    """Most loudness with which another reading defends the cell in all rounds begin..end."""
+    most = np.float32(0)
+    node = cells.guard[cell]
+    while node != NOBODY:
+        w, m = node // SEGMENTS, node % SEGMENTS
+        if w != i and beams.win_span[w, m, 0] <= begin and beams.win_span[w, m, 1] >= end:
+            most = max(most, beams.win_loudness[w, m])
+        node = beams.win_after[w, m]
+    return most
+
+
+@numba.njit(cache=True)
+def hangs_on(i, cell, since, covered, beams):
+    """Whether it may matter to a reading that a cell is called empty louder from a round on.
+
+    A reading that loses goes on losing; one that wins elsewhere goes on winning there; one that is
+    out of conflict stays so unless this cell was uncovered (`covered`: until which round it was not).
+    """
+    if covered < beams.opened[i] < NEVER:
+        return True
+    for m in range(beams.win_count[i]):
+        if beams.win_cell[i, m] == cell and beams.win_span[i, m, 1] > since:
+            return True
+    return False
