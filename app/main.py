@@ -9,7 +9,18 @@ from typing import TYPE_CHECKING
 
 from fastapi import APIRouter, FastAPI
 
-from app.api import docs_page, edits, health, jobs, labels, live, localizations, logs, models
+from app.api import (
+    docs_page,
+    edits,
+    health,
+    jobs,
+    labels,
+    live,
+    localizations,
+    logs,
+    models,
+    timeline,
+)
 from app.api.static_pages import STATIC_FOLDER, StaticPages
 from app.body_limit import BodyLimit
 from app.demo import show_samples
@@ -47,6 +58,7 @@ def create_app(settings: Settings) -> FastAPI:
         health.router,
         logs.router,
         models.router,
+        timeline.router,
         labels.router,
         edits.router,
         localizations.router,

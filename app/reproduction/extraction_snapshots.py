@@ -8,7 +8,7 @@ import numpy as np
 
 from core.geometry import FloatArray, IntArray
 from core.mapping import OccupancyGrid
-from core.pipeline.growing_map import maps_along, stops_along
+from core.pipeline.growing_map import moments_along, stops_along
 from core.pipeline.mapper import MappingOptions, map_log
 from core.pipeline.region_finder import PAPER_STEP, PAPER_WINDOW
 from core.progress import Progress, no_progress
@@ -55,15 +55,14 @@ def snapshots(
     state, found = ExtractionState(), []
     stops = stops[stops <= max(looks, default=-1)]
     window = PAPER_WINDOW if as_in_paper else None
-    for i, (stop, local) in enumerate(maps_along(log, trajectory, options, stops, window)):
-        pose, t = trajectory.poses[stop], float(log.t[stop])
+    for i, moment in enumerate(moments_along(log, trajectory, options, stops, window)):
         if as_in_paper:
-            state = extract_as_in_paper(state, local.grid, local.confidence, pose, t, PaperConfig())
+            state = extract_as_in_paper(state, moment, PaperConfig())
         else:
-            state = extract(state, local.grid, pose, t, AutonomousConfig())
-        if stop in looks:
-            part = np.arange(stop + 1)
+            state = extract(state, moment, AutonomousConfig())
+        if int(stops[i]) in looks:
+            part = np.arange(stops[i] + 1)
             grid = map_log(log.taken(part), trajectory.taken(part), options).grid
-            found.append(Snapshot(t, grid, region_image(state, grid, 0.0), pose))
+            found.append(Snapshot(moment.t, grid, region_image(state, grid, 0.0), moment.pose))
         progress((i + 1) / len(stops), "extracting regions along the drive")
     return tuple(found)

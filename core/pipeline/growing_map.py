@@ -9,6 +9,7 @@ import numpy as np
 from core.geometry import IntArray, travelled, wrap_angle
 from core.mapping.map_result import MapResult
 from core.pipeline.mapper import MappingOptions, map_log
+from core.segmentation.moment import Moment
 from core.sensing import RobotLog, Trajectory
 
 KEY_DISTANCE, KEY_TURN = 0.12, 0.25
@@ -26,14 +27,14 @@ def stops_along(trajectory: Trajectory, step: float) -> IntArray:
     return np.flatnonzero(np.diff(passed) > 0).astype(np.int64) + 1
 
 
-def maps_along(
+def moments_along(
     log: RobotLog,
     trajectory: Trajectory,
     options: MappingOptions,
     stops: IntArray,
     window: float | None = None,
-) -> Iterator[tuple[int, MapResult]]:
-    """The map at each stop, made of key scans only.
+) -> Iterator[Moment]:
+    """What the robot knows at each stop, the map made of key scans only.
 
     Args:
         log: the drive.
@@ -47,7 +48,18 @@ def maps_along(
         recent = keys[keys <= stop]
         if window is not None:
             recent = recent[driven[recent] >= driven[stop] - window]
-        yield int(stop), map_log(log.taken(recent), trajectory.taken(recent), options)
+        result = map_log(log.taken(recent), trajectory.taken(recent), options)
+        yield _moment(trajectory, int(stop), result)
+
+
+def last_moment(trajectory: Trajectory, result: MapResult) -> Moment:
+    """The end of a drive."""
+    return _moment(trajectory, len(trajectory) - 1, result)
+
+
+def _moment(trajectory: Trajectory, stop: int, result: MapResult) -> Moment:
+    pose, distance = trajectory.poses[stop], float(travelled(trajectory.poses[: stop + 1])[-1])
+    return Moment(float(trajectory.t[stop]), distance, pose, result.grid, result.confidence)
 
 
 def key_scans(trajectory: Trajectory) -> IntArray:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import platform
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any, Literal
 
@@ -22,6 +22,7 @@ from core.pipeline.region_finder import (
     given_number,
     large_parts,
     number_found,
+    restricted,
 )
 from core.progress import Progress, no_progress, part_of
 from core.segmentation.connected import largest_component, reachable_floor
@@ -109,7 +110,9 @@ def model_log(
         found = number_found(grid, floor, options.seed, rest)
     else:
         extract = along_the_drive if options.method == "default" else along_the_drive_as_in_paper
-        found = extract(log, trajectory, grid, floor, mapping, rest)
+        found = extract(
+            log, trajectory, replace(result, grid=restricted(grid, floor)), mapping, rest
+        )
     source = {
         "log": whole.name,
         "scans": len(whole),
@@ -183,7 +186,16 @@ def _model(
         "versions": _versions(),
     }
     rooms = room_image(found.regions, topology)
-    return Model(grid, found.regions, rooms, topology, trajectory, provenance, found.history)
+    return Model(
+        grid,
+        found.regions,
+        rooms,
+        topology,
+        trajectory,
+        provenance,
+        found.history,
+        found.timeline,
+    )
 
 
 def _versions() -> dict[str, str]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
@@ -11,19 +11,19 @@ from scipy import ndimage
 
 from core.geometry import BoolArray, IntArray
 from core.mapping import FREE, UNKNOWN, OccupancyGrid
-from core.pipeline.growing_map import maps_along, stops_along
+from core.mapping.map_result import MapResult
+from core.pipeline.growing_map import last_moment, moments_along, stops_along
 from core.pipeline.mapper import MappingOptions
 from core.progress import Progress, part_of
 from core.segmentation.automatic import AutomaticConfig, segment_automatically
 from core.segmentation.autonomous import AutonomousConfig, extract, finish, region_image
-from core.segmentation.extraction_state import (
-    ExtractedRegion,
-    ExtractionState,
-    lattice_corner,
-    painted,
-)
+from core.segmentation.extraction_state import ExtractionState
 from core.segmentation.offline import OfflineConfig, segment_offline
-from core.segmentation.paper_extraction import PaperConfig, extract_as_in_paper
+from core.segmentation.paper_extraction import (
+    PaperConfig,
+    extract_as_in_paper,
+    finish_as_in_paper,
+)
 from core.sensing import RobotLog, Trajectory
 from core.topology.rooms import suggested_rooms
 
@@ -45,6 +45,7 @@ class FoundRegions:
         parameters: every parameter, for the provenance.
         node_ids: ids that regions have from the drive, by their value.
         next_number: the first number that no id has used.
+        timeline: a picture (`StepPicture` as PNG) of every step along the drive.
     """
 
     regions: IntArray
@@ -53,6 +54,7 @@ class FoundRegions:
     parameters: Mapping[str, Any]
     node_ids: Mapping[int, str]
     next_number: int = 1
+    timeline: tuple[bytes, ...] = ()
 
 
 def given_number(
@@ -79,8 +81,7 @@ def number_found(
 def along_the_drive(
     log: RobotLog,
     trajectory: Trajectory,
-    grid: OccupancyGrid,
-    floor: BoolArray,
+    whole: MapResult,
     mapping: MappingOptions,
     progress: Progress,
 ) -> FoundRegions:
@@ -89,23 +90,20 @@ def along_the_drive(
     state = ExtractionState()
     stops = stops_along(trajectory, config.step)
     drive = part_of(progress, 0.0, DRIVE_SHARE)
-    for i, (stop, so_far) in enumerate(maps_along(log, trajectory, mapping, stops)):
-        pose, t = trajectory.poses[stop], float(log.t[stop])
-        state = extract(state, so_far.grid, pose, t, config)
+    for i, moment in enumerate(moments_along(log, trajectory, mapping, stops)):
+        state = extract(state, moment, config)
         drive((i + 1) / len(stops), "extracting regions along the drive")
-    whole = restricted(grid, floor)
-    state = finish(state, whole, trajectory.poses[-1], float(log.t[-1]), config)
-    regions = region_image(state, whole)
+    state = finish(state, last_moment(trajectory, whole), config)
+    regions = region_image(state, whole.grid)
     if not regions.any():
-        return number_found(grid, floor, 0, part_of(progress, DRIVE_SHARE, 1.0))
-    return _of_state(state, regions, suggested_rooms(whole, regions), asdict(config))
+        return number_found(whole.grid, whole.grid.free, 0, part_of(progress, DRIVE_SHARE, 1.0))
+    return _of_state(state, regions, suggested_rooms(whole.grid, regions), asdict(config))
 
 
 def along_the_drive_as_in_paper(
     log: RobotLog,
     trajectory: Trajectory,
-    grid: OccupancyGrid,
-    floor: BoolArray,
+    whole: MapResult,
     mapping: MappingOptions,
     progress: Progress,
 ) -> FoundRegions:
@@ -117,20 +115,11 @@ def along_the_drive_as_in_paper(
     state = ExtractionState()
     stops = stops_along(trajectory, PAPER_STEP)
     drive = part_of(progress, 0.0, DRIVE_SHARE)
-    local_maps = maps_along(log, trajectory, mapping, stops, PAPER_WINDOW)
-    for i, (stop, local) in enumerate(local_maps):
-        pose, t = trajectory.poses[stop], float(log.t[stop])
-        state = extract_as_in_paper(state, local.grid, local.confidence, pose, t, config)
+    for i, moment in enumerate(moments_along(log, trajectory, mapping, stops, PAPER_WINDOW)):
+        state = extract_as_in_paper(state, moment, config)
         drive((i + 1) / len(stops), "extracting regions along the drive")
-    whole = restricted(grid, floor)
-    left = whole.free & (painted(state.regions, grid.geometry) == 0)
-    for piece in separate_parts(left, round(config.least_area / grid.geometry.cell_area)):
-        cells = np.argwhere(piece) + lattice_corner(grid.geometry)
-        rest = ExtractedRegion(state.next_number, cells)
-        state = replace(
-            state, regions=(*state.regions, rest), next_number=state.next_number + 1
-        ).with_entry({"event": "rest", "region": rest.number, "reason": "end of the drive"})
-    regions = region_image(state, whole)
+    state = finish_as_in_paper(state, last_moment(trajectory, whole), config)
+    regions = region_image(state, whole.grid)
     return _of_state(state, regions, regions, asdict(config))
 
 
@@ -139,7 +128,9 @@ def _of_state(
 ) -> FoundRegions:
     """The result of a drive; regions keep the numbers that they were extracted with."""
     node_ids = {int(value): f"n{value}" for value in np.unique(regions) if value > 0}
-    return FoundRegions(regions, rooms, state.history, parameters, node_ids, state.next_number)
+    return FoundRegions(
+        regions, rooms, state.history, parameters, node_ids, state.next_number, state.pictures
+    )
 
 
 def restricted(grid: OccupancyGrid, floor: BoolArray) -> OccupancyGrid:
@@ -148,17 +139,9 @@ def restricted(grid: OccupancyGrid, floor: BoolArray) -> OccupancyGrid:
     return OccupancyGrid(grid.geometry, state)
 
 
-def separate_parts(free: BoolArray, least_cells: int) -> list[BoolArray]:
-    """The connected parts of free space of at least so many cells, each as a mask."""
+def large_parts(free: BoolArray, least_cells: int) -> BoolArray:
+    """The connected parts of free space of at least so many cells, together."""
     labels, _ = ndimage.label(free)
     sizes = np.bincount(labels.ravel())
     sizes[0] = 0
-    return [labels == value for value in np.flatnonzero(sizes >= max(1, least_cells))]
-
-
-def large_parts(free: BoolArray, least_cells: int) -> BoolArray:
-    """The connected parts of free space of at least so many cells, together."""
-    together = np.zeros(free.shape, bool)
-    for part in separate_parts(free, least_cells):
-        together |= part
-    return together
+    return np.asarray((sizes >= max(1, least_cells))[labels])

@@ -17,7 +17,6 @@ distances of the drive, so that logs may be cut anywhere.
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from typing import Any
 
 import numpy as np
 from scipy import ndimage
@@ -26,6 +25,8 @@ from core.geometry import BoolArray, FloatArray, IntArray
 from core.mapping import GridGeometry, OccupancyGrid
 from core.mapping.occupancy_grid import UNKNOWN
 from core.segmentation.automatic import AutomaticConfig, Segmentation, segment_automatically
+from core.segmentation.convexity import ConvexityConfig, convexity
+from core.segmentation.decision import Decision, measure_cut
 from core.segmentation.extraction_state import (
     ExtractedRegion,
     ExtractionState,
@@ -33,6 +34,7 @@ from core.segmentation.extraction_state import (
     painted,
 )
 from core.segmentation.hidden_pairs import hidden_pairs
+from core.segmentation.moment import Moment
 
 
 @dataclass(frozen=True)
@@ -46,6 +48,7 @@ class AutonomousConfig:
         most_frontier: share of a part's rim that may be unexplored.
         least_area: square metres of a part.
         least_overlap: share of a reopened region that a part must cover to be its heir.
+        convexity: how C1 and C2 are counted, which the history tells beside the hidden pairs.
         automatic: of the tentative division.
     """
 
@@ -55,79 +58,105 @@ class AutonomousConfig:
     most_frontier: float = 0.1
     least_area: float = 1.5
     least_overlap: float = 0.5
+    convexity: ConvexityConfig = field(default_factory=ConvexityConfig)
     automatic: AutomaticConfig = field(default_factory=AutomaticConfig)
 
 
 def extract(
-    state: ExtractionState,
-    grid: OccupancyGrid,
-    pose: FloatArray,
-    t: float,
-    config: AutonomousConfig | None = None,
+    state: ExtractionState, moment: Moment, config: AutonomousConfig | None = None
 ) -> ExtractionState:
-    """One step: extracts every part of the remaining space that is ready.
-
-    Args:
-        state: what is known so far.
-        grid: the map so far; its corner lies on a multiple of the resolution.
-        pose: (3,) the robot in the map's frame.
-        t: seconds, for the history.
-        config: parameters.
-    """
+    """One step: extracts every part of the remaining space that is ready."""
     config = config or AutonomousConfig()
-    geometry = grid.geometry
-    robot = _nearest_free(grid, geometry.cell_of(pose[:2]))
+    grid, geometry = moment.grid, moment.grid.geometry
+    robot = _nearest_free(grid, geometry.cell_of(moment.pose[:2]))
     if robot is None:
-        return state
-    state = _reopened(state, geometry, robot, t)
+        return _recorded(state, moment, None, [], config, "nothing is free yet")
+    state, said = _reopened(state, geometry, robot)
     left = _remaining(state, grid, robot)
     if not left.any():
-        return state
-    whole = hidden_pairs(left, ~grid.free)
-    if whole <= config.most_hidden:
-        return state.with_entry(
-            _entry(t, whole, None, False, "all that is left can be seen from within")
-        )
-    found = _divided(grid, left, config.automatic)
+        return _recorded(state, moment, None, [], config, "no space is left around the robot")
+    if hidden_pairs(left, ~grid.free) <= config.most_hidden:
+        said += "all that is left around the robot can be seen from within"
+        return _recorded(state, moment, left.astype(np.int64), [], config, said)
+    found = _divided(grid, left, config.automatic).regions
+    c1 = convexity((left,), grid, config.convexity)
     distance = np.hypot(*(np.indices(left.shape) - robot[:, None, None])) * geometry.resolution
-    here = int(found.regions[tuple(robot)])
-    parts = [int(v) for v in np.unique(found.regions[found.regions > 0]) if v != here]
-    for value in sorted(parts, key=lambda v: -float(distance[found.regions == v].min())):
-        mask = found.regions == value
+    here = int(found[tuple(robot)])
+    parts = [int(v) for v in np.unique(found[found > 0]) if v != here]
+    decisions = []
+    for value in sorted(parts, key=lambda v: -float(distance[found == v].min())):
+        mask = found == value
         hidden, why = _fitness(mask, grid, distance, config)
-        if not why:
-            state = _with_region(state, mask, geometry, config)
-        state = state.with_entry(_entry(t, whole, hidden, not why, why or "convex and explored"))
-    return state
+        measures = measure_cut(mask, left, c1, grid, config.convexity)
+        decision = Decision(value, measures, hidden, not why, why or "convex and explored")
+        if decision.accepted:
+            state, region = _with_region(state, mask, geometry, config)
+            decision = replace(decision, region=region.number, came_from=region.parents)
+        decisions.append(decision)
+    return _recorded(state, moment, found, decisions, config, said + _summary(decisions))
 
 
 def finish(
-    state: ExtractionState,
-    grid: OccupancyGrid,
-    pose: FloatArray,
-    t: float,
-    config: AutonomousConfig | None = None,
+    state: ExtractionState, moment: Moment, config: AutonomousConfig | None = None
 ) -> ExtractionState:
     """The end of a drive (for now): what is left of reliable free space becomes regions too.
 
     They stay open: a drive that goes on divides them anew, and heirs keep their numbers.
     """
     config = config or AutonomousConfig()
-    robot = _nearest_free(grid, grid.geometry.cell_of(pose[:2]))
-    if robot is None:
-        return state
+    grid = moment.grid
     left = _remaining(state, grid, None)
-    found = _divided(grid, left, config.automatic) if left.any() else None
+    found = _divided(grid, left, config.automatic).regions if left.any() else None
+    decisions = []
     if found is not None:
-        for value in np.unique(found.regions[found.regions > 0]):
-            mask = found.regions == value
-            hidden = hidden_pairs(mask, ~grid.free)
-            large = mask.sum() * grid.geometry.cell_area >= config.least_area
-            why = "end of the drive" if large else "too small: joins a neighbour"
+        c1 = convexity((left,), grid, config.convexity)
+        for value in np.unique(found[found > 0]):
+            mask = found == value
+            large = bool(mask.sum() * grid.geometry.cell_area >= config.least_area)
+            decision = Decision(
+                int(value),
+                measure_cut(mask, left, c1, grid, config.convexity),
+                hidden_pairs(mask, ~grid.free),
+                large,
+                "end of the drive" if large else "too small: joins a neighbour",
+            )
             if large:
-                state = _with_region(state, mask, grid.geometry, config, is_open=True)
-            state = state.with_entry(_entry(t, hidden, hidden, bool(large), why))
+                state, region = _with_region(state, mask, grid.geometry, config, is_open=True)
+                decision = replace(decision, region=region.number, came_from=region.parents)
+            decisions.append(decision)
+    said = "end of the drive: " + _summary(decisions)
+    state = _recorded(state, moment, found, decisions, config, said)
     return replace(state, regions=tuple(r for r in state.regions if len(r.cells)))
+
+
+def _recorded(
+    state: ExtractionState,
+    moment: Moment,
+    clusters: IntArray | None,
+    decisions: list[Decision],
+    config: AutonomousConfig,
+    said: str,
+) -> ExtractionState:
+    """The state with the step in its history."""
+    if clusters is None:
+        clusters = np.zeros(moment.grid.geometry.shape, np.int64)
+    thresholds = {
+        "hidden_pairs": config.most_hidden,
+        "distance_m": config.least_distance,
+        "area_m2": config.least_area,
+        "unexplored_rim": config.most_frontier,
+    }
+    return state.recorded(moment, clusters, decisions, thresholds, said)
+
+
+def _summary(decisions: list[Decision]) -> str:
+    """What came of the parts, in words."""
+    if not decisions:
+        return "the space that is left is one part, the robot is in it"
+    taken = [str(d.region) for d in decisions if d.accepted]
+    waiting = len(decisions) - len(taken)
+    said = f"extracted {', '.join(taken)}" if taken else "nothing extracted"
+    return f"{said}; {waiting} part{'s' * (waiting != 1)} not ready" if waiting else said
 
 
 def region_image(state: ExtractionState, grid: OccupancyGrid, reach: float = 1.0) -> IntArray:
@@ -167,15 +196,14 @@ def _nearest_free(grid: OccupancyGrid, cell: IntArray) -> IntArray | None:
 
 
 def _reopened(
-    state: ExtractionState, geometry: GridGeometry, robot: IntArray, t: float
-) -> ExtractionState:
-    """The state with the region that the robot is back in open again."""
+    state: ExtractionState, geometry: GridGeometry, robot: IntArray
+) -> tuple[ExtractionState, str]:
+    """The state with the region that the robot is back in open again, and that in words."""
     here = int(painted(state.regions, geometry)[tuple(robot)])
     if not any(r.number == here and not r.is_open for r in state.regions):
-        return state
+        return state, ""
     regions = tuple(replace(r, is_open=True) if r.number == here else r for r in state.regions)
-    entry = {"event": "reopened", "t": round(t, 2), "region": here, "reason": "the robot is back"}
-    return replace(state, regions=regions).with_entry(entry)
+    return replace(state, regions=regions), f"the robot is back in region {here}; "
 
 
 def _remaining(state: ExtractionState, grid: OccupancyGrid, robot: IntArray | None) -> BoolArray:
@@ -226,7 +254,7 @@ def _with_region(
     geometry: GridGeometry,
     config: AutonomousConfig,
     is_open: bool = False,
-) -> ExtractionState:
+) -> tuple[ExtractionState, ExtractedRegion]:
     """The state with a part extracted: the heir of an open region that it covers, or a new one."""
     cells = np.argwhere(mask) + lattice_corner(geometry)
     waiting = tuple(region for region in state.regions if region.is_open)
@@ -244,7 +272,7 @@ def _with_region(
     number = state.next_number if heir is None else heir
     new = ExtractedRegion(number, cells, lineage, is_open)
     following = state.next_number + (heir is None)
-    return replace(state, regions=(*regions, new), next_number=following)
+    return replace(state, regions=(*regions, new), next_number=following), new
 
 
 def _without(region: ExtractedRegion, cells: IntArray) -> ExtractedRegion:
@@ -255,17 +283,3 @@ def _without(region: ExtractedRegion, cells: IntArray) -> ExtractedRegion:
     span = int(max(region.cells[:, 1].max(), cells[:, 1].max()) - low[1]) + 1
     keys = [(c[:, 0] - low[0]) * span + c[:, 1] - low[1] for c in (region.cells, cells)]
     return replace(region, cells=region.cells[~np.isin(*keys)])
-
-
-def _entry(
-    t: float, whole: float, part: float | None, accepted: bool, reason: str
-) -> dict[str, Any]:
-    """One decision for the history."""
-    return {
-        "event": "extract",
-        "t": round(t, 2),
-        "hidden_pairs_left": round(whole, 3),
-        "hidden_pairs": None if part is None else round(part, 3),
-        "accepted": accepted,
-        "reason": reason,
-    }

@@ -8,7 +8,7 @@ from typing import Literal
 import numpy as np
 from skimage.draw import polygon
 
-from core.geometry import BoolArray
+from core.geometry import BoolArray, FloatArray
 from core.mapping import OccupancyGrid
 from core.segmentation.convex_hull import convex_hull
 
@@ -36,13 +36,22 @@ PRINTED = ConvexityConfig("occupied", 0.2, 0.5)
 
 def blocked_in_hull(cluster: BoolArray, grid: OccupancyGrid, config: ConvexityConfig) -> int:
     """# of occ. grids in the convex hull of a cluster (rows, cols)."""
-    cells = np.argwhere(cluster).astype(float)
-    if len(cells) < 3:
+    rim = rim_of(cluster)
+    if len(rim) < 3:
         return 0
-    hull = convex_hull(cells)
+    hull = convex_hull(rim)
     row, col = polygon(hull[:, 0], hull[:, 1], cluster.shape)  # type: ignore[no-untyped-call]
     inside = grid.occupied if config.counted == "occupied" else ~grid.free
     return int(inside[row, col].sum())
+
+
+def rim_of(cluster: BoolArray) -> FloatArray:
+    """The first and the last grid `[row, col]` (n, 2) of each row: they span the convex hull."""
+    rows = np.flatnonzero(cluster.any(axis=1))
+    first = cluster[rows].argmax(axis=1)
+    last = cluster.shape[1] - 1 - cluster[rows, ::-1].argmax(axis=1)
+    ends = np.concatenate((np.column_stack((rows, first)), np.column_stack((rows, last))))
+    return np.unique(ends, axis=0).astype(float)
 
 
 def convexity(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -9,6 +10,9 @@ import numpy as np
 
 from core.geometry import IntArray
 from core.mapping import GridGeometry
+from core.segmentation.decision import Decision
+from core.segmentation.moment import Moment
+from core.segmentation.step_picture import StepPicture
 
 
 @dataclass(frozen=True)
@@ -31,15 +35,56 @@ class ExtractedRegion:
 
 @dataclass(frozen=True)
 class ExtractionState:
-    """The extracted regions in order of extraction, the next number, and every decision."""
+    """The extracted regions and how they came about.
+
+    Attributes:
+        regions: in order of extraction.
+        next_number: the first number that no region has used.
+        history: every step (`event` "step") followed by its decisions and events.
+        pictures: one `StepPicture` as PNG for each step.
+    """
 
     regions: tuple[ExtractedRegion, ...] = ()
     next_number: int = 1
-    history: tuple[dict[str, Any], ...] = ()
+    history: tuple[Mapping[str, Any], ...] = ()
+    pictures: tuple[bytes, ...] = ()
 
-    def with_entry(self, entry: dict[str, Any]) -> ExtractionState:
-        """The state after one more decision."""
-        return replace(self, history=(*self.history, entry))
+    def recorded(
+        self,
+        moment: Moment,
+        clusters: IntArray,
+        decisions: list[Decision],
+        thresholds: Mapping[str, float | None],
+        said: str,
+    ) -> ExtractionState:
+        """The state with a step in its history.
+
+        Args:
+            moment: of the step.
+            clusters: (rows, cols) the tentative parts by number.
+            decisions: one for each part that was looked at.
+            thresholds: what the measures were held against.
+            said: what the step came to, in words.
+        """
+        step, t, geometry = len(self.pictures), round(moment.t, 2), moment.grid.geometry
+        head = {
+            "event": "step",
+            "step": step,
+            "t": t,
+            "distance_m": round(moment.distance, 3),
+            "pose": [round(float(v), 4) for v in moment.pose],
+            "picture": {"origin": list(geometry.origin), "resolution": geometry.resolution},
+            "thresholds": dict(thresholds),
+            "said": said,
+        }
+        entries = [{"step": step, "t": t, **decision.entry()} for decision in decisions]
+        regions = np.where(moment.grid.free, painted(self.regions, geometry), 0)
+        picture = StepPicture(moment.grid.state, clusters, regions).png()
+        return replace(
+            self,
+            history=(*self.history, head, *entries),
+            pictures=(*self.pictures, picture),
+        )
 
 
 def lattice_corner(geometry: GridGeometry) -> IntArray:

@@ -7,16 +7,19 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy import ndimage
 
-from core.geometry import FloatArray, IntArray
+from core.geometry import BoolArray, IntArray
 from core.mapping import OccupancyGrid
 from core.segmentation.convex_split import two_way_cut
 from core.segmentation.convexity import ConvexityConfig, convexity, is_to_be_cut
+from core.segmentation.decision import Decision, measure_cut
 from core.segmentation.extraction_state import (
     ExtractedRegion,
     ExtractionState,
     lattice_corner,
     painted,
 )
+from core.segmentation.hidden_pairs import hidden_pairs
+from core.segmentation.moment import Moment
 from core.segmentation.reliable_region import ReliableConfig, reliable_region
 
 
@@ -38,59 +41,101 @@ class PaperConfig:
 
 
 def extract_as_in_paper(
-    state: ExtractionState,
-    grid: OccupancyGrid,
-    confidence: FloatArray,
-    pose: FloatArray,
-    t: float,
-    config: PaperConfig | None = None,
+    state: ExtractionState, moment: Moment, config: PaperConfig | None = None
 ) -> ExtractionState:
     """One step: the reliable cells are cut in two; if eq. (9) holds, the farther half is extracted.
 
     Args:
         state: what is known so far.
-        grid: the local map.
-        confidence: Conf of eq. (5), (rows, cols).
-        pose: (3,) the robot in the map's frame.
-        t: seconds, for the history.
+        moment: its grid is the local map.
         config: parameters and open points.
     """
-    config = config or PaperConfig()
-    robot = grid.geometry.cell_of(pose[:2])
+    config, grid = config or PaperConfig(), moment.grid
+    robot = grid.geometry.cell_of(moment.pose[:2])
     if not grid.geometry.contains(robot) or not grid.free[tuple(robot)]:
-        return state
+        return _recorded(state, moment, (), [], config, "the robot is not on free grids")
     state = _without_region_of(state, grid, robot)
     taken = painted(state.regions, grid.geometry) > 0
-    reliable = reliable_region(grid, confidence, robot, config.reliable) & ~taken
+    reliable = reliable_region(grid, moment.confidence, robot, config.reliable) & ~taken
     pieces, _ = ndimage.label(reliable)
     cells = (pieces == pieces[tuple(robot)]) & reliable
     least = config.least_area / grid.geometry.cell_area
     cut = two_way_cut(cells, least, config.max_cell) if cells.sum() >= 2 * least else None
     if cut is None:
-        return state
+        said = "the reliable cells around the robot are too few to be cut"
+        return _recorded(state, moment, (cells,), [], config, said)
+    near, far = _by_distance((cut.first, cut.second), robot)
     one = convexity((cells,), grid, config.convexity)  # eq. (7)
-    two = convexity((cut.first, cut.second), grid, config.convexity)  # eq. (8)
-    accepted = is_to_be_cut(one, two, config.convexity)  # eq. (9)
+    measures = measure_cut(far, cells, one, grid, config.convexity)  # eq. (8)
+    accepted = is_to_be_cut(one, measures.c2, config.convexity)  # eq. (9)
+    why = _reason(one, measures.c2, config.convexity)
+    number = state.next_number if accepted else None
+    decision = Decision(2, measures, hidden_pairs(far, ~grid.free), accepted, why, number)
     if accepted:
-        centres = [np.argwhere(half).mean(axis=0) for half in (cut.first, cut.second)]
-        far = int(np.argmax([np.hypot(*(centre - robot)) for centre in centres]))
-        mask = (cut.first, cut.second)[far]
-        region = ExtractedRegion(
-            state.next_number, np.argwhere(mask) + lattice_corner(grid.geometry)
+        state = _with_region(state, far, grid)
+    return _recorded(state, moment, (near, far), [decision], config, why)
+
+
+def finish_as_in_paper(
+    state: ExtractionState, moment: Moment, config: PaperConfig | None = None
+) -> ExtractionState:
+    """The end of a drive: every piece of floor that is left becomes a region."""
+    config, grid = config or PaperConfig(), moment.grid
+    left = grid.free & (painted(state.regions, grid.geometry) == 0)
+    one = convexity((left,), grid, config.convexity) if left.any() else 0.0
+    labels, count = ndimage.label(left)
+    pieces, decisions = [labels == value for value in range(1, count + 1)], []
+    for i, piece in enumerate(pieces):
+        if piece.sum() * grid.geometry.cell_area < config.least_area:
+            continue
+        measures = measure_cut(piece, left, one, grid, config.convexity)
+        hidden = hidden_pairs(piece, ~grid.free)
+        decisions.append(
+            Decision(i + 1, measures, hidden, True, "end of the drive", state.next_number)
         )
-        state = replace(state, regions=(*state.regions, region), next_number=state.next_number + 1)
-    return state.with_entry(
-        {
-            "event": "extract",
-            "t": round(t, 2),
-            "c1": round(one, 3),
-            "c2": round(two, 3),
-            "ncut": round(cut.ncut, 4),
-            "cut_width_m": round(cut.width * grid.geometry.resolution, 2),
-            "accepted": accepted,
-            "reason": "eq. 9 holds" if accepted else "eq. 9 does not hold",
-        }
-    )
+        state = _with_region(state, piece, grid)
+    said = f"end of the drive: {len(decisions)} pieces were left"
+    return _recorded(state, moment, tuple(pieces), decisions, config, said)
+
+
+def _by_distance(
+    halves: tuple[BoolArray, BoolArray], robot: IntArray
+) -> tuple[BoolArray, BoolArray]:
+    """The half whose centre is nearer to the robot, then the other one."""
+    away = [np.hypot(*(np.argwhere(half).mean(axis=0) - robot)) for half in halves]
+    return halves if away[0] <= away[1] else (halves[1], halves[0])
+
+
+def _with_region(state: ExtractionState, mask: BoolArray, grid: OccupancyGrid) -> ExtractionState:
+    cells = np.argwhere(mask) + lattice_corner(grid.geometry)
+    new = ExtractedRegion(state.next_number, cells)
+    return replace(state, regions=(*state.regions, new), next_number=state.next_number + 1)
+
+
+def _reason(one: float, two: float, config: ConvexityConfig) -> str:
+    """Eq. (9) in words."""
+    if one <= config.threshold:
+        return f"convex enough: C1 = {one:.2f} is not above c_t = {config.threshold:g}"
+    limit = config.factor * one
+    if two >= limit:
+        return f"the cut gains too little: C2 = {two:.2f} is not below {limit:.2f}"
+    return f"C1 = {one:.2f} is above c_t = {config.threshold:g}, C2 = {two:.2f} below {limit:.2f}"
+
+
+def _recorded(
+    state: ExtractionState,
+    moment: Moment,
+    parts: tuple[BoolArray, ...],
+    decisions: list[Decision],
+    config: PaperConfig,
+    said: str,
+) -> ExtractionState:
+    """The state with the step in its history; the parts are its clusters 1, 2, ..."""
+    clusters = np.zeros(moment.grid.geometry.shape, np.int64)
+    for i, part in enumerate(parts):
+        clusters[part] = i + 1
+    thresholds = {"c1": config.convexity.threshold, "c2_per_c1": config.convexity.factor}
+    return state.recorded(moment, clusters, decisions, thresholds, said)
 
 
 def _without_region_of(

@@ -23,7 +23,9 @@ class Model:
         topology: nodes, edges, rooms; the truth about labels.
         trajectory: the poses that the map was made at; None for a map that was imported.
         provenance: inputs, every parameter of every stage, versions.
-        history: the decisions that made the regions, in order.
+        history: the steps and decisions that made the regions, in order.
+        timeline: the picture (PNG, `segmentation/step_picture.py`) of each step in the history;
+            none for models that no drive has made.
     """
 
     grid: OccupancyGrid
@@ -33,3 +35,4 @@ class Model:
     trajectory: Trajectory | None
     provenance: Mapping[str, Any]
     history: tuple[Mapping[str, Any], ...] = ()
+    timeline: tuple[bytes, ...] = ()

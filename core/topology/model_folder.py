@@ -19,6 +19,7 @@ from core.mapping.map_server import read_map, write_map
 from core.sensing import Trajectory
 from core.topology.labels import room_image
 from core.topology.model import Model
+from core.topology.timeline_file import TIMELINE_FILE, read_timeline, write_timeline
 from core.topology.topological_map import Edge, Node, Room, TopologicalMap
 
 FORMAT, VERSION = "echorooms-topology", 1
@@ -78,6 +79,8 @@ def write_model(model: Model, folder: Path) -> None:
     if model.trajectory is not None:
         model.trajectory.write_csv(folder / "trajectory.csv")
     _write_history(folder / "history.jsonl", model.history)
+    if model.timeline:
+        write_timeline(model.timeline, folder / TIMELINE_FILE)
     (folder / "provenance.json").write_text(
         json.dumps(model.provenance, indent=1, allow_nan=False) + "\n", encoding="utf-8"
     )
@@ -107,7 +110,8 @@ def read_model(folder: Path) -> Model:
         topology,
         Trajectory.read_csv(trajectory) if trajectory.is_file() else None,
         _read_json(folder / "provenance.json") if (folder / "provenance.json").is_file() else {},
-        _read_history(folder / "history.jsonl"),
+        read_history(folder),
+        read_timeline(folder / TIMELINE_FILE),
     )
 
 
@@ -197,14 +201,23 @@ def _read_json(path: Path) -> Any:
         raise ModelError(f"{path.name} is no JSON: {error}") from error
 
 
-def _read_history(path: Path) -> tuple[Mapping[str, Any], ...]:
+def read_history(folder: Path) -> tuple[dict[str, Any], ...]:
+    """The steps, decisions and edits in `history.jsonl`; none when there is no such file.
+
+    Raises:
+        ModelError: it is not what it should be.
+    """
+    path = folder / "history.jsonl"
     if not path.is_file():
         return ()
     try:
         lines = path.read_text(encoding="utf-8").splitlines()
-        return tuple(json.loads(line) for line in lines if line.strip())
-    except ValueError as error:
+        entries = tuple(json.loads(line) for line in lines if line.strip())
+    except (ValueError, RecursionError) as error:
         raise ModelError(f"{path.name} is no JSON: {error}") from error
+    if not all(isinstance(entry, dict) for entry in entries):
+        raise ModelError(f"{path.name}: every line must be an object")
+    return entries
 
 
 def _write_history(path: Path, history: Sequence[Mapping[str, Any]]) -> None:

@@ -25,6 +25,7 @@ from core.mapping.cemal import cemal_map
 from core.segmentation.automatic import segment_automatically
 from core.segmentation.autonomous import extract, finish, region_image
 from core.segmentation.extraction_state import ExtractionState
+from core.segmentation.moment import Moment
 from core.sensing import RobotLog, Trajectory
 
 RESOLUTION = 0.05
@@ -51,12 +52,18 @@ def autonomous(log: RobotLog, step: float) -> tuple[OccupancyGrid, ExtractionSta
     state, seconds = ExtractionState(), []
     for stop in [*stops, len(log) - 1]:
         part = log.slice(0, stop + 1)
-        grid = cemal_map(part, Trajectory.from_odometry(part)).grid
+        result = cemal_map(part, Trajectory.from_odometry(part))
         start = time.process_time()
-        pose, t = log.odometry[stop], float(log.t[stop])
-        state = extract(state, grid, pose, t)
+        moment = Moment(
+            float(log.t[stop]),
+            float(distance[stop]),
+            log.odometry[stop],
+            result.grid,
+            result.confidence,
+        )
+        state = extract(state, moment)
         seconds.append(time.process_time() - start)
-    return grid, finish(state, grid, pose, t), seconds
+    return moment.grid, finish(state, moment), seconds
 
 
 def row(name: str, grid: OccupancyGrid, regions: IntArray, truth: GroundTruth) -> str:

@@ -1,0 +1,27 @@
+"""A moment of a drive at which regions are looked for: where the robot is and what it knows."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from core.geometry import FloatArray
+from core.mapping import OccupancyGrid
+
+
+@dataclass(frozen=True)
+class Moment:
+    """One step of extraction along a drive.
+
+    Attributes:
+        t: seconds.
+        distance: metres driven so far.
+        pose: (3,) the robot in the map's frame.
+        grid: the map as it is now; its corner lies on a multiple of the resolution.
+        confidence: (rows, cols) Conf of eq. (5).
+    """
+
+    t: float
+    distance: float
+    pose: FloatArray
+    grid: OccupancyGrid
+    confidence: FloatArray
