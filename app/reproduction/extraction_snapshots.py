@@ -6,15 +6,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.geometry import FloatArray, IntArray
+from core.geometry import FloatArray, IntArray, travelled
 from core.mapping import OccupancyGrid
-from core.pipeline.growing_map import moments_along, stops_along
+from core.pipeline.growing_model import METHODS, GrowingModel
 from core.pipeline.mapper import MappingOptions, map_log
-from core.pipeline.region_finder import PAPER_STEP, PAPER_WINDOW
 from core.progress import Progress, no_progress
-from core.segmentation.autonomous import AutonomousConfig, extract, region_image
-from core.segmentation.extraction_state import ExtractionState
-from core.segmentation.paper_extraction import PaperConfig, extract_as_in_paper
+from core.segmentation.autonomous import region_image
 from core.sensing import RobotLog, Trajectory
 
 SHARES = (0.25, 0.5, 0.75)
@@ -44,25 +41,19 @@ def snapshots(
         log: the mapping drive.
         trajectory: its poses.
         as_in_paper: eq. (5)-(9) on local maps; otherwise our default.
-        shares: of the drive's steps, after which to look.
+        shares: of the drive's length, after which to look.
     """
-    options = MappingOptions()
-    step = PAPER_STEP if as_in_paper else AutonomousConfig().step
-    stops = stops_along(trajectory, step)
-    looks = (
-        {int(stops[round(share * (len(stops) - 1))]) for share in shares} if len(stops) else set()
-    )
-    state, found = ExtractionState(), []
-    stops = stops[stops <= max(looks, default=-1)]
-    window = PAPER_WINDOW if as_in_paper else None
-    for i, moment in enumerate(moments_along(log, trajectory, options, stops, window)):
-        if as_in_paper:
-            state = extract_as_in_paper(state, moment, PaperConfig())
-        else:
-            state = extract(state, moment, AutonomousConfig())
-        if int(stops[i]) in looks:
-            part = np.arange(stops[i] + 1)
-            grid = map_log(log.taken(part), trajectory.taken(part), options).grid
-            found.append(Snapshot(moment.t, grid, region_image(state, grid, 0.0), moment.pose))
-        progress((i + 1) / len(stops), "extracting regions along the drive")
+    mapping = MappingOptions()
+    growing = GrowingModel(log.ring, mapping, METHODS["paper" if as_in_paper else "default"])
+    driven = travelled(trajectory.poses)
+    looks = {int(np.searchsorted(driven, share * driven[-1])) for share in shares}
+    found = []
+    for i in range(max(looks, default=-1) + 1):
+        growing.add(log.scan(i), trajectory.poses[i])
+        if i in looks:
+            part = np.arange(i + 1)
+            grid = map_log(log.taken(part), trajectory.taken(part), mapping).grid
+            regions = region_image(growing.state, grid, 0.0)
+            found.append(Snapshot(float(log.t[i]), grid, regions, trajectory.poses[i]))
+            progress(len(found) / len(looks), "extracting regions along the drive")
     return tuple(found)

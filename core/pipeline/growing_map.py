@@ -2,75 +2,100 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from typing import Protocol
 
 import numpy as np
 
-from core.geometry import IntArray, travelled, wrap_angle
+from core.geometry import FloatArray
+from core.mapping.cemal import CemalConfig
+from core.mapping.incremental_cemal import IncrementalCemal
 from core.mapping.map_result import MapResult
-from core.pipeline.mapper import MappingOptions, map_log
-from core.segmentation.moment import Moment
-from core.sensing import RobotLog, Trajectory
-
-KEY_DISTANCE, KEY_TURN = 0.12, 0.25
-"""Metres and radians between key scans. At 0.15 m/s and 4 Hz every third or fourth scan is one; a
-map of every fourth scan measured as good as one of all."""
+from core.pipeline.mapper import MappingOptions, map_scans
+from core.sensing import RobotLog, Scan, SonarRing, Trajectory
 
 
-def stops_along(trajectory: Trajectory, step: float) -> IntArray:
-    """Indices of the scans at which the drive passes a multiple of `step` metres.
+class GrowingMap(Protocol):
+    """A map that takes in scans, with what the robot has seen lately and with everything."""
 
-    They depend on the distance from the start of the drive only, so that a drive in two logs, or
-    scan by scan, stops at the same places.
-    """
-    passed = np.floor(travelled(trajectory.poses) / step)
-    return np.flatnonzero(np.diff(passed) > 0).astype(np.int64) + 1
+    def add(self, scan: Scan, pose: FloatArray) -> None:
+        """Takes in a scan that was made at a pose (3,) of the map's frame."""
+
+    def local(self) -> MapResult:
+        """The local map around the robot."""
+
+    def whole(self) -> MapResult:
+        """The map of everything so far."""
 
 
-def moments_along(
-    log: RobotLog,
-    trajectory: Trajectory,
-    options: MappingOptions,
-    stops: IntArray,
-    window: float | None = None,
-) -> Iterator[Moment]:
-    """What the robot knows at each stop, the map made of key scans only.
+def growing_map(ring: SonarRing, options: MappingOptions, window: float | None) -> GrowingMap:
+    """An empty map.
 
     Args:
-        log: the drive.
-        trajectory: its poses.
+        ring: of the robot.
         options: mapping method and resolution.
-        stops: indices of scans.
-        window: metres of travel that a local map holds; None takes the whole drive so far.
+        window: metres of travel that the local map holds; None takes everything so far.
     """
-    keys, driven = key_scans(trajectory), travelled(trajectory.poses)
-    for stop in stops:
-        recent = keys[keys <= stop]
-        if window is not None:
-            recent = recent[driven[recent] >= driven[stop] - window]
-        result = map_log(log.taken(recent), trajectory.taken(recent), options)
-        yield _moment(trajectory, int(stop), result)
+    if window is None and options.method == "cemal":
+        return IncrementalMap(ring, CemalConfig(resolution=options.resolution))
+    return RemadeMap(ring, options, window)
 
 
-def last_moment(trajectory: Trajectory, result: MapResult) -> Moment:
-    """The end of a drive."""
-    return _moment(trajectory, len(trajectory) - 1, result)
+class IncrementalMap:
+    """CEMAL scan by scan; what a scan costs does not grow with the drive."""
+
+    def __init__(self, ring: SonarRing, config: CemalConfig) -> None:
+        self._cemal = IncrementalCemal(ring, config)
+
+    def add(self, scan: Scan, pose: FloatArray) -> None:
+        """Takes in a scan."""
+        self._cemal.add(scan, pose)
+
+    def local(self) -> MapResult:
+        """The map of everything: nothing is gained by leaving something out."""
+        return self._cemal.result()
+
+    def whole(self) -> MapResult:
+        """The map of everything."""
+        return self._cemal.result()
 
 
-def _moment(trajectory: Trajectory, stop: int, result: MapResult) -> Moment:
-    pose, distance = trajectory.poses[stop], float(travelled(trajectory.poses[: stop + 1])[-1])
-    return Moment(float(trajectory.t[stop]), distance, pose, result.grid, result.confidence)
+class RemadeMap:
+    """A map made anew from the scans each time, for the paper's local map and the log-odds baseline.
 
+    With a window the local map costs the same all along the drive; log-odds of everything do not.
+    """
 
-def key_scans(trajectory: Trajectory) -> IntArray:
-    """Indices of scans that lie apart from the one before: a map needs no more."""
-    keys, last = [], None
-    for i, pose in enumerate(trajectory.poses):
-        if (
-            last is None
-            or np.hypot(*(pose[:2] - last[:2])) >= KEY_DISTANCE
-            or abs(float(wrap_angle(pose[2] - last[2]))) >= KEY_TURN
-        ):
-            keys.append(i)
-            last = pose
-    return np.array(keys, np.int64)
+    def __init__(self, ring: SonarRing, options: MappingOptions, window: float | None) -> None:
+        self._ring, self._options, self._window = ring, options, window
+        self._scans: list[Scan] = []
+        self._poses: list[FloatArray] = []
+
+    def add(self, scan: Scan, pose: FloatArray) -> None:
+        """Takes in a scan."""
+        self._scans.append(scan)
+        self._poses.append(pose)
+
+    def local(self) -> MapResult:
+        """The map of the last metres of travel."""
+        if self._window is None:
+            return self.whole()
+        first, left = len(self._poses) - 1, self._window
+        while first > 0:
+            left -= float(np.hypot(*(self._poses[first][:2] - self._poses[first - 1][:2])))
+            if left < 0:
+                break
+            first -= 1
+        return self._map(first)
+
+    def whole(self) -> MapResult:
+        """The map of all scans."""
+        return self._map(0)
+
+    def _map(self, first: int) -> MapResult:
+        scans = self._scans[first:]
+        t = np.array([scan.t for scan in scans])
+        poses = np.array(self._poses[first:])
+        ranges = np.array([scan.ranges for scan in scans])
+        fresh = np.array([scan.fresh for scan in scans])
+        log = RobotLog("drive so far", self._ring, t, poses, ranges, fresh)
+        return map_scans(log, Trajectory.at(t, poses), self._options)

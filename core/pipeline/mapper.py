@@ -54,16 +54,23 @@ def map_log(
     Raises:
         MapError: the log has no echo at all, or the drive is too large for a grid.
     """
-    options = options or MappingOptions()
-    config = options._config()
-    result = (
-        bayes_map(log, trajectory, config, progress)
-        if isinstance(config, BayesConfig)
-        else cemal_map(log, trajectory, config, progress)
-    )
+    result = map_scans(log, trajectory, options or MappingOptions(), progress)
     if not result.kept.any():
         raise MapError(
             f"log {log.name!r} has no usable echo: there is nothing to map. Check the no-echo value "
             "and the units of the ranges"
         )
     return result
+
+
+def map_scans(
+    log: RobotLog,
+    trajectory: Trajectory,
+    options: MappingOptions,
+    progress: Progress = no_progress,
+) -> MapResult:
+    """The map of scans that may hold no echo at all; then only what the robot covers is free."""
+    config = options._config()
+    if isinstance(config, BayesConfig):
+        return bayes_map(log, trajectory, config, progress)
+    return cemal_map(log, trajectory, config, progress)

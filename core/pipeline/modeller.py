@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import platform
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any, Literal
 
@@ -13,19 +13,18 @@ from core.errors import InputError, MapError, UsageError
 from core.mapping import OccupancyGrid
 from core.mapping.occupancy_grid import DEFAULT_RESOLUTION
 from core.pipeline.corrected_drive import corrected_drive
+from core.pipeline.floor import floor_of_drive, large_parts
+from core.pipeline.growing_model import MethodName
 from core.pipeline.mapper import MappingMethod, MappingOptions, map_log
 from core.pipeline.odometry import OdometryChoice
 from core.pipeline.region_finder import (
     FoundRegions,
     along_the_drive,
-    along_the_drive_as_in_paper,
     given_number,
-    large_parts,
     number_found,
-    restricted,
 )
 from core.progress import Progress, no_progress, part_of
-from core.segmentation.connected import largest_component, reachable_floor
+from core.segmentation.connected import largest_component
 from core.sensing import RobotLog, Trajectory
 from core.topology import Model
 from core.topology.labels import carried_labels, room_image
@@ -34,8 +33,6 @@ from core.topology.topology_of import topology_of
 Mode = Literal["autonomous", "offline"]
 DRIFT_SHARE, MAPPING_SHARE, CUTTING_SHARE = 0.35, 0.45, 0.95
 """Shares of the time after which trajectory, map and regions are there, for the progress."""
-PASSAGE = 0.3
-"""Metres: free space that hangs on the rest by less is a leak of the map, not a place to go to."""
 SMALLEST_PART = 1.0
 """Square metres of a separate part of an imported map that is modelled."""
 
@@ -55,7 +52,7 @@ class ModellingOptions:
     """
 
     mode: Mode | None = None
-    method: Literal["default", "paper"] = "default"
+    method: MethodName = "default"
     regions: int | None = None
     mapping: MappingMethod = "cemal"
     odometry: OdometryChoice = "corrected"
@@ -101,18 +98,13 @@ def model_log(
     mapping = MappingOptions(options.mapping, options.resolution)
     result = map_log(log, trajectory, mapping, part_of(progress, DRIFT_SHARE, MAPPING_SHARE))
     grid, rest = result.grid, part_of(progress, MAPPING_SHARE, CUTTING_SHARE)
-    cells = grid.geometry.cell_of(trajectory.poses[:, :2])
-    seeds = cells[grid.geometry.contains(cells)]
-    floor = reachable_floor(grid.free, seeds, PASSAGE / 2 / options.resolution)
+    floor = floor_of_drive(grid, trajectory)
     if options.regions is not None:
         found = given_number(grid, floor, options.regions, options.seed, rest)
     elif options.mode == "offline":
         found = number_found(grid, floor, options.seed, rest)
     else:
-        extract = along_the_drive if options.method == "default" else along_the_drive_as_in_paper
-        found = extract(
-            log, trajectory, replace(result, grid=restricted(grid, floor)), mapping, rest
-        )
+        found = along_the_drive(log, trajectory, result, mapping, options.method, rest)
     source = {
         "log": whole.name,
         "scans": len(whole),

@@ -3,33 +3,25 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from typing import Any
 
 import numpy as np
-from scipy import ndimage
 
 from core.geometry import BoolArray, IntArray
-from core.mapping import FREE, UNKNOWN, OccupancyGrid
+from core.mapping import OccupancyGrid
 from core.mapping.map_result import MapResult
-from core.pipeline.growing_map import last_moment, moments_along, stops_along
+from core.pipeline.floor import floor_of_drive, restricted
+from core.pipeline.growing_model import METHODS, GrowingModel, MethodName, grown_along
 from core.pipeline.mapper import MappingOptions
-from core.progress import Progress, part_of
+from core.progress import Progress, no_progress, part_of
 from core.segmentation.automatic import AutomaticConfig, segment_automatically
-from core.segmentation.autonomous import AutonomousConfig, extract, finish, region_image
-from core.segmentation.extraction_state import ExtractionState
+from core.segmentation.autonomous import region_image
 from core.segmentation.offline import OfflineConfig, segment_offline
-from core.segmentation.paper_extraction import (
-    PaperConfig,
-    extract_as_in_paper,
-    finish_as_in_paper,
-)
+from core.segmentation.paper_extraction import PaperConfig
 from core.sensing import RobotLog, Trajectory
 from core.topology.rooms import suggested_rooms
 
-PAPER_STEP, PAPER_WINDOW = 2.5, 12.0
-"""Metres of travel between two steps of the paper's extraction, which names none, and in its local
-map: a sliding window of about 12 m measured better than all data in two of three homes."""
 DRIVE_SHARE = 0.8
 """Share of the time that the steps along the drive take, for the progress."""
 
@@ -83,65 +75,44 @@ def along_the_drive(
     trajectory: Trajectory,
     whole: MapResult,
     mapping: MappingOptions,
+    method: MethodName,
     progress: Progress,
 ) -> FoundRegions:
-    """Autonomous extraction (3.2): a fold over the drive, then what is left at its end."""
-    config = AutonomousConfig()
-    state = ExtractionState()
-    stops = stops_along(trajectory, config.step)
-    drive = part_of(progress, 0.0, DRIVE_SHARE)
-    for i, moment in enumerate(moments_along(log, trajectory, mapping, stops)):
-        state = extract(state, moment, config)
-        drive((i + 1) / len(stops), "extracting regions along the drive")
-    state = finish(state, last_moment(trajectory, whole), config)
-    regions = region_image(state, whole.grid)
-    if not regions.any():
-        return number_found(whole.grid, whole.grid.free, 0, part_of(progress, DRIVE_SHARE, 1.0))
-    return _of_state(state, regions, suggested_rooms(whole.grid, regions), asdict(config))
+    """Autonomous extraction (3.2): a fold over the drive, then what is left at its end.
 
-
-def along_the_drive_as_in_paper(
-    log: RobotLog,
-    trajectory: Trajectory,
-    whole: MapResult,
-    mapping: MappingOptions,
-    progress: Progress,
-) -> FoundRegions:
-    """Autonomous extraction by eq. (5)-(9) on local maps; what is left at the end becomes regions.
-
-    Every region is a room of its own: the paper knows no rooms above its nodes.
+    Args:
+        log: the drive.
+        trajectory: its poses.
+        whole: the map of all scans.
+        mapping: how maps are made on the way.
+        method: how regions are extracted.
+        progress: told all along.
     """
-    config = PaperConfig()
-    state = ExtractionState()
-    stops = stops_along(trajectory, PAPER_STEP)
     drive = part_of(progress, 0.0, DRIVE_SHARE)
-    for i, moment in enumerate(moments_along(log, trajectory, mapping, stops, PAPER_WINDOW)):
-        state = extract_as_in_paper(state, moment, config)
-        drive((i + 1) / len(stops), "extracting regions along the drive")
-    state = finish_as_in_paper(state, last_moment(trajectory, whole), config)
-    regions = region_image(state, whole.grid)
-    return _of_state(state, regions, regions, asdict(config))
+    growing = grown_along(log, trajectory, mapping, METHODS[method], drive)
+    return found_so_far(growing, whole)
 
 
-def _of_state(
-    state: ExtractionState, regions: IntArray, rooms: IntArray, parameters: Mapping[str, Any]
-) -> FoundRegions:
-    """The result of a drive; regions keep the numbers that they were extracted with."""
+def found_so_far(growing: GrowingModel, whole: MapResult | None = None) -> FoundRegions:
+    """The regions of a drive as if it ended now; they keep the numbers they were extracted with.
+
+    In the paper's method every region is a room of its own: it knows no rooms above its nodes.
+
+    Args:
+        growing: the drive so far; it can go on.
+        whole: the map of all scans, by default the one that the drive has grown.
+    """
+    whole = whole or growing.whole_map()
+    floor = floor_of_drive(whole.grid, growing.trajectory)
+    grid = restricted(whole.grid, floor)
+    state = growing.finished(replace(whole, grid=grid))
+    regions = region_image(state, grid)
+    if floor.any() and not regions.any():
+        return number_found(whole.grid, floor, 0, no_progress)
+    by_method = isinstance(growing.method.config, PaperConfig)
+    rooms = regions if by_method else suggested_rooms(grid, regions)
     node_ids = {int(value): f"n{value}" for value in np.unique(regions) if value > 0}
+    parameters = asdict(growing.method.config)
     return FoundRegions(
         regions, rooms, state.history, parameters, node_ids, state.next_number, state.pictures
     )
-
-
-def restricted(grid: OccupancyGrid, floor: BoolArray) -> OccupancyGrid:
-    """The grid with the free cells outside the floor taken as unknown."""
-    state = np.where((grid.state == FREE) & ~floor, UNKNOWN, grid.state).astype(np.uint8)
-    return OccupancyGrid(grid.geometry, state)
-
-
-def large_parts(free: BoolArray, least_cells: int) -> BoolArray:
-    """The connected parts of free space of at least so many cells, together."""
-    labels, _ = ndimage.label(free)
-    sizes = np.bincount(labels.ravel())
-    sizes[0] = 0
-    return np.asarray((sizes >= max(1, least_cells))[labels])

@@ -43,6 +43,7 @@ class AutonomousConfig:
 
     Attributes:
         step: metres of travel between two steps.
+        window: metres of travel that the local map holds; None takes all data so far.
         most_hidden: share of hidden pairs that a region may have (c_t of eq. 9).
         least_distance: metres between the robot and a part that is extracted.
         most_frontier: share of a part's rim that may be unexplored.
@@ -53,6 +54,7 @@ class AutonomousConfig:
     """
 
     step: float = 2.5
+    window: float | None = None
     most_hidden: float = 0.2
     least_distance: float = 2.0
     most_frontier: float = 0.1

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from core.geometry import FloatArray
+from core.geometry import BoolArray, FloatArray
 
 
 @numba.njit(cache=True)
@@ -45,3 +45,28 @@ def polygon_area(corners: FloatArray) -> float:
         j = (i + 1) % len(corners)
         twice += corners[i, 0] * corners[j, 1] - corners[i, 1] * corners[j, 0]
     return abs(twice) / 2
+
+
+@numba.njit(cache=True)
+def marked_in_hull(corners: FloatArray, mask: BoolArray) -> int:
+    """How many marked cells of `mask` (rows, cols) lie in a convex polygon (k, 2), rim included.
+
+    Args:
+        corners: `[row, col]` in order, k >= 1; every corner is a cell of the mask.
+        mask: what is counted.
+    """
+    count = 0
+    for row in range(int(corners[:, 0].min()), int(corners[:, 0].max()) + 1):
+        low, high = np.inf, -np.inf
+        for i in range(len(corners)):
+            a, b = corners[i], corners[(i + 1) % len(corners)]
+            if min(a[0], b[0]) > row or max(a[0], b[0]) < row:
+                continue
+            if a[0] == b[0]:
+                left, right = min(a[1], b[1]), max(a[1], b[1])
+            else:
+                left = right = a[1] + (row - a[0]) * (b[1] - a[1]) / (b[0] - a[0])
+            low, high = min(low, left), max(high, right)
+        for col in range(int(np.ceil(low - 1e-9)), int(np.floor(high + 1e-9)) + 1):
+            count += mask[row, col]
+    return count

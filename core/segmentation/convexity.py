@@ -6,11 +6,10 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from skimage.draw import polygon
 
 from core.geometry import BoolArray, FloatArray
 from core.mapping import OccupancyGrid
-from core.segmentation.convex_hull import convex_hull
+from core.segmentation.convex_hull import convex_hull, marked_in_hull
 
 
 @dataclass(frozen=True)
@@ -36,13 +35,10 @@ PRINTED = ConvexityConfig("occupied", 0.2, 0.5)
 
 def blocked_in_hull(cluster: BoolArray, grid: OccupancyGrid, config: ConvexityConfig) -> int:
     """# of occ. grids in the convex hull of a cluster (rows, cols)."""
-    rim = rim_of(cluster)
-    if len(rim) < 3:
+    if not cluster.any():
         return 0
-    hull = convex_hull(rim)
-    row, col = polygon(hull[:, 0], hull[:, 1], cluster.shape)  # type: ignore[no-untyped-call]
-    inside = grid.occupied if config.counted == "occupied" else ~grid.free
-    return int(inside[row, col].sum())
+    blocked = grid.occupied if config.counted == "occupied" else ~grid.free
+    return int(marked_in_hull(convex_hull(rim_of(cluster)), blocked))
 
 
 def rim_of(cluster: BoolArray) -> FloatArray:

@@ -28,12 +28,17 @@ class PaperConfig:
     """Parameters of the paper's extraction.
 
     Attributes:
+        step: metres of travel between two steps; the paper names none.
+        window: metres of travel that the local map holds: a sliding window measured better than
+            all data so far in two of three homes; None takes all.
         reliable: of the reliable region (eq. 6).
         convexity: of the condition (eq. 7-9).
         least_area: square metres of a cluster; the paper tells of none.
         max_cell: largest quadtree cell in grids.
     """
 
+    step: float = 2.5
+    window: float | None = 12.0
     reliable: ReliableConfig = field(default_factory=ReliableConfig)
     convexity: ConvexityConfig = field(default_factory=ConvexityConfig)
     least_area: float = 1.0

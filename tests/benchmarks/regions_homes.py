@@ -1,9 +1,12 @@
-"""Regions found on drives through homes: autonomous, and offline with the number found.
+"""Regions found on drives through homes: autonomous by default, as in the paper, and with k given.
 
-    python tests/benchmarks/regions_homes.py --data SHARED [--step 5] [HOME ...]
+    python tests/benchmarks/regions_homes.py [--homes 20] [--first 1001] [--jobs 2]
+    python tests/benchmarks/regions_homes.py --data SHARED
 
-SHARED/homes holds `logs/HOME_map.jsonl.gz` and `truth/HOME.npz`. The map is made anew from the
-scans so far at every step of the drive; odometry as it is in the log.
+The first form drives through the paper home and random-1001 onwards, which nothing was chosen on
+(random-1 ... random-999 are there to choose), with calibrated odometry; the frame of the odometry is
+laid on the truth by one rigid fit. The second one takes the drives and the truth of an independent
+simulator from SHARED/homes. The odometry is used as it is in the log.
 """
 
 from __future__ import annotations
@@ -12,88 +15,143 @@ import argparse
 import json
 import sys
 import time
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
+from multiprocessing import Pool
 from pathlib import Path
 
 import numpy as np
 
-from core.evaluation.ground_truth import GroundTruth
-from core.evaluation.region_metrics import region_metrics
-from core.geometry import IntArray, travelled
+from core.evaluation import GroundTruth
+from core.evaluation.ground_truth import aligned, alignment
+from core.evaluation.region_metrics import RegionMetrics, region_metrics
 from core.log_readers.registry import read_log
-from core.mapping import GridGeometry, OccupancyGrid
-from core.mapping.cemal import cemal_map
-from core.segmentation.automatic import segment_automatically
-from core.segmentation.autonomous import extract, finish, region_image
-from core.segmentation.extraction_state import ExtractionState
-from core.segmentation.moment import Moment
-from core.sensing import RobotLog, Trajectory
+from core.mapping import GridGeometry
+from core.pipeline.modeller import ModellingOptions, model_log
+from core.sensing import RobotLog
+from core.simulation import build_home, simulate, truth_of
 
 RESOLUTION = 0.05
-HOMES = ("home21", "home22", "home23", "home24")
+SHARED_HOMES = ("home21", "home22", "home23", "home24")
+DRIVE_SEED = 1001
+METHODS = {
+    "autonomous": ModellingOptions(odometry="raw"),
+    "paper": ModellingOptions(method="paper", odometry="raw"),
+    "k = 10": ModellingOptions(regions=10, odometry="raw"),
+}
+MOST_HIDDEN = 0.2
+"""Share of hidden pairs that every region of a home should keep to."""
 
 
-def truth_of(path: Path) -> GroundTruth:
-    """Ground truth of a home."""
-    stored = np.load(path, allow_pickle=False)
+@dataclass(frozen=True)
+class Row:
+    """One home, divided by one method."""
+
+    home: str
+    method: str
+    metrics: RegionMetrics
+    seconds: float
+
+    @property
+    def right_number(self) -> bool:
+        """Whether there are at least as many nodes as rooms and at most twice as many."""
+        return self.metrics.rooms_true <= self.metrics.count <= 2 * self.metrics.rooms_true
+
+
+COLUMNS: dict[str, tuple[Callable[[Row], float], Callable[[Iterable[float]], float]]] = {
+    "purity": (lambda row: row.metrics.purity, min),
+    "ARI": (lambda row: row.metrics.ari, min),
+    "hidden mean": (lambda row: row.metrics.hidden_mean, max),
+    "hidden max": (lambda row: row.metrics.hidden_max, max),
+    "merged IoU": (lambda row: row.metrics.merged_iou_mean, min),
+    "coverage": (lambda row: row.metrics.coverage, min),
+    "regions": (lambda row: row.metrics.count, max),
+    "seconds": (lambda row: row.seconds, max),
+}
+"""What is shown of a home, and which of two values is the worse."""
+
+
+def own_home(name: str) -> list[Row]:
+    """A home of the product's own simulator."""
+    home = build_home(name)
+    log = simulate(home, seed=DRIVE_SEED)
+    assert log.truth is not None
+    true = truth_of(home)
+    truth = GroundTruth(
+        true.geometry, true.occupied, true.free, true.explored(log), true.rooms, true.names,
+        true.door_gaps,
+    )  # fmt: skip
+    return rows(name, log, truth, alignment(log.truth, log.odometry))
+
+
+def shared_home(folder: str, name: str) -> list[Row]:
+    """A home of the independent simulator."""
+    stored = np.load(Path(folder) / "truth" / f"{name}.npz", allow_pickle=False)
     meta = json.loads(str(stored["meta"]))
     shape = stored["occupied"].shape
     geometry = GridGeometry(RESOLUTION, (*meta["origin"][:2], 0.0), (shape[0], shape[1]))
-    doors = np.zeros((0, 4))
-    return GroundTruth(
+    truth = GroundTruth(
         geometry, stored["occupied"], stored["free"], stored["explored"],
-        stored["rooms"].astype(np.int64), tuple(meta["rooms"]), doors,
+        stored["rooms"].astype(np.int64), tuple(meta["rooms"]), np.zeros((0, 4)),
     )  # fmt: skip
+    log = read_log(Path(folder) / "logs" / f"{name}_map.jsonl.gz").log
+    return rows(name, log, truth, np.zeros(3))
 
 
-def autonomous(log: RobotLog, step: float) -> tuple[OccupancyGrid, ExtractionState, list[float]]:
-    """Last map, regions and the seconds of every step."""
-    distance = travelled(log.odometry)
-    stops = [int(np.searchsorted(distance, d)) for d in np.arange(step, distance[-1], step)]
-    state, seconds = ExtractionState(), []
-    for stop in [*stops, len(log) - 1]:
-        part = log.slice(0, stop + 1)
-        result = cemal_map(part, Trajectory.from_odometry(part))
+def rows(name: str, log: RobotLog, truth: GroundTruth, pose_truth_map: np.ndarray) -> list[Row]:
+    """All methods on one drive."""
+    found = []
+    for method, options in METHODS.items():
         start = time.process_time()
-        moment = Moment(
-            float(log.t[stop]),
-            float(distance[stop]),
-            log.odometry[stop],
-            result.grid,
-            result.confidence,
-        )
-        state = extract(state, moment)
-        seconds.append(time.process_time() - start)
-    return moment.grid, finish(state, moment), seconds
+        model = model_log(log.without_truth(), options)
+        seconds = time.process_time() - start
+        geometry = aligned(model.grid.geometry, pose_truth_map)
+        found.append(Row(name, method, region_metrics(model.regions, geometry, truth), seconds))
+    return found
 
 
-def row(name: str, grid: OccupancyGrid, regions: IntArray, truth: GroundTruth) -> str:
-    """One line of the table."""
-    m = region_metrics(regions, grid.geometry, truth)
-    return (
-        f"{name:24s} regions {m.count:2d} rooms {m.rooms_true}  purity {m.purity:.2f}  "
-        f"ari {m.ari:.2f}  merged {m.merged_iou_mean:.2f}  hidden mean {m.hidden_mean:.2f} "
-        f"most {m.hidden_max:.2f}  cover {m.coverage:.2f}\n"
-    )
+def line(row: Row) -> str:
+    """One row of the table."""
+    values = " ".join(f"{get(row):11.2f}" for get, _ in COLUMNS.values())
+    return f"{row.home:12s} {row.method:11s} {row.metrics.rooms_true:5d} {values}\n"
+
+
+def summary(method: str, found: list[Row]) -> str:
+    """Mean and worst of a method over all homes."""
+    text = f"\n{method}, {len(found)} homes: mean / worst\n"
+    for name, (get, worse) in COLUMNS.items():
+        values = [get(row) for row in found]
+        text += f"  {name:12s} {np.mean(values):6.3f} / {worse(values):6.3f}\n"
+    convex = np.mean([row.metrics.hidden_max <= MOST_HIDDEN for row in found])
+    numbers = np.mean([row.right_number for row in found])
+    text += f"  every region's hidden pairs at most {MOST_HIDDEN}: {convex:.2f} of homes\n"
+    return text + f"  nodes between the number of rooms and twice that: {numbers:.2f} of homes\n"
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("--data", type=Path, required=True)
-    parser.add_argument("--step", type=float, default=5.0)
-    parser.add_argument("homes", nargs="*", default=HOMES)
+    parser.add_argument("--data", type=Path)
+    parser.add_argument("--homes", type=int, default=20)
+    parser.add_argument("--first", type=int, default=1001)
+    parser.add_argument("--jobs", type=int, default=2)
     options = parser.parse_args()
-    for home in options.homes:
-        log = read_log(options.data / "homes" / "logs" / f"{home}_map.jsonl.gz").log
-        truth = truth_of(options.data / "homes" / "truth" / f"{home}.npz")
-        grid, state, seconds = autonomous(log.without_truth(), options.step)
-        sys.stdout.write(row(f"{home} autonomous", grid, region_image(state, grid), truth))
-        found = segment_automatically(grid)
-        sys.stdout.write(row(f"{home} offline", grid, found.regions, truth))
-        sys.stdout.write(row(f"{home} offline, rooms", grid, found.rooms, truth))
-        sys.stdout.write(f"{home}: a step takes {np.median(seconds):.2f} s (median)\n")
-        sys.stdout.flush()
+    with Pool(options.jobs) as pool:
+        if options.data is None:
+            names = [f"random-{options.first + i}" for i in range(options.homes)]
+            tasks = [pool.apply_async(own_home, (name,)) for name in ["paper", *names]]
+        else:
+            folder = str(options.data / "homes")
+            tasks = [pool.apply_async(shared_home, (folder, name)) for name in SHARED_HOMES]
+        sys.stdout.write(f"{'':24s} rooms {' '.join(f'{name:>11s}' for name in COLUMNS)}\n")
+        found: list[Row] = []
+        for task in tasks:
+            found += task.get()
+            sys.stdout.writelines(line(row) for row in found[-len(METHODS) :])
+            sys.stdout.flush()
+    for method in METHODS:
+        sys.stdout.write(summary(method, [row for row in found if row.method == method]))
 
 
 if __name__ == "__main__":
