@@ -19,6 +19,7 @@ from app.api import (
     localizations,
     logs,
     models,
+    robots,
     timeline,
 )
 from app.api.static_pages import STATIC_FOLDER, StaticPages
@@ -28,6 +29,7 @@ from app.errors import PROBLEM_RESPONSES, install_error_handlers
 from app.events import ModelEvents
 from app.lazy_view import LazyView
 from app.live.hub import LiveHub
+from app.robots.fleet import RobotFleet
 from app.security import BrowserGuard
 from app.services import Services, open_services
 from app.settings import Settings
@@ -51,6 +53,7 @@ def create_app(settings: Settings) -> FastAPI:
     )
     app.state.settings = settings
     app.state.events = events
+    app.state.address = None
     app.state.view = LazyView(lambda model_id: _load_model(app, model_id), events, settings)
     install_error_handlers(app)
     api = APIRouter(prefix="/api", responses=PROBLEM_RESPONSES)
@@ -64,6 +67,7 @@ def create_app(settings: Settings) -> FastAPI:
         localizations.router,
         jobs.router,
         live.router,
+        robots.router,
     ):
         api.include_router(router)
     app.include_router(api)
@@ -81,11 +85,14 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         app.state.services = services
         app.state.live = LiveHub(services)
         await app.state.live.recover()
+        app.state.robots = RobotFleet(app.state.live, lambda: app.state.address)
+        await app.state.robots.recover()
         loading = asyncio.create_task(show_samples(services)) if services.settings.demo else None
         yield
         if loading is not None:
             loading.cancel()
             await asyncio.wait([loading])
+        await app.state.robots.close()
         await app.state.live.close()
         await app.state.view.close()
 

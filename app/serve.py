@@ -33,7 +33,9 @@ def run(settings: Settings, on_ready: OnReady | None = None) -> None:
             be used.
     """
     with _listen(settings) as listener:
-        asyncio.run(_serve(create_app(settings), listener, on_ready or (lambda url: None)))
+        app = create_app(settings)
+        app.state.address = _url(listener)
+        asyncio.run(_serve(app, listener, on_ready or (lambda url: None)))
 
 
 async def _serve(app: FastAPI, listener: socket.socket, on_ready: OnReady) -> None:

@@ -36,6 +36,11 @@ class EventStream:
     def __init__(self) -> None:
         self._listeners: set[Listener] = set()
 
+    @property
+    def heard(self) -> bool:
+        """Whether anybody listens."""
+        return bool(self._listeners)
+
     def listen(self) -> Listener:
         """A new listener."""
         listener = Listener()

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 from core.log_readers.native import parse_header
-from core.sensing import SonarRing
 
 
 class Recording:
@@ -26,7 +25,8 @@ class Recording:
         with path.open("rb") as file:
             header = file.readline()
             whole += len(header)
-            self.name, self.ring = _header(header)
+            self.header: dict[str, Any] = json.loads(header)
+            self.name, self.ring = parse_header(self.header)
             for line in file:
                 if not line.endswith(b"\n"):
                     break
@@ -77,10 +77,6 @@ class Recording:
         if self._last_xy is not None:
             self.distance_m += ((x - self._last_xy[0]) ** 2 + (y - self._last_xy[1]) ** 2) ** 0.5
         self._last_xy = (x, y)
-
-
-def _header(line: bytes) -> tuple[str, SonarRing]:
-    return parse_header(json.loads(line))
 
 
 def _line(record: dict[str, Any]) -> bytes:

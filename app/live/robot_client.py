@@ -73,6 +73,15 @@ class RobotClient:
         self._drop()
         return self._request("DELETE", f"/api/live/{self.session['id']}")
 
+    def standing(self) -> dict[str, Any]:
+        """The session as the server has it now."""
+        return self._request("GET", f"/api/live/{self.session['id']}")
+
+    def model_status(self) -> str:
+        """How far the server is with the session's model."""
+        model = self._request("GET", f"/api/models/{self.session['model_id']}")
+        return str(model["status"])
+
     def _exchange(self, records: list[dict[str, Any]]) -> dict[str, Any]:
         if self._socket is None:
             path = f"{self._url}/api/live/{self.session['id']}/scans"

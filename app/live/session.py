@@ -66,6 +66,11 @@ class LiveSession:
         self._commits = commits
         self._latest_t = recording.last_t
 
+    @property
+    def simulated(self) -> bool:
+        """Whether the robot says in its header that it is none."""
+        return self.recording.header.get("simulated") is True
+
     async def take(self, records: Any) -> Acknowledgement:
         """Keeps scans: one scan line or a list of them; returns once they are safe.
 

@@ -26,11 +26,17 @@ NARROW_COST = 4.0
 class RoutePlanner:
     """The cells of a home that a robot's centre may occupy, and routes through them.
 
+    Args:
+        around: a world point; the part of the home that is connected to the place nearest to it
+            is driven in, by default the largest part.
+
     Raises:
         InputError: the robot is too large to drive anywhere.
     """
 
-    def __init__(self, home: Home, robot_radius: float) -> None:
+    def __init__(
+        self, home: Home, robot_radius: float, around: Sequence[float] | FloatArray | None = None
+    ) -> None:
         self.truth: HomeTruth = truth_of(home)
         self.geometry = self.truth.geometry
         blocked = self.truth.occupied.copy()
@@ -39,8 +45,11 @@ class RoutePlanner:
         cell = self.geometry.resolution
         self.clearance = np.asarray(ndimage.distance_transform_edt(~blocked) * cell - cell / 2)
         """(rows, cols) metres from each cell's centre to the nearest thing."""
-        self.passable: BoolArray = largest_part(self.clearance >= robot_radius + CLEARANCE)
-        """(rows, cols) where the robot's centre may be: the largest connected part."""
+        wide = self.clearance >= robot_radius + CLEARANCE
+        self.passable: BoolArray = (
+            largest_part(wide) if around is None else self._part_around(wide, around)
+        )
+        """(rows, cols) where the robot's centre may be: one connected part."""
         if self.passable.sum() * self.geometry.cell_area < LEAST_FLOOR:
             raise InputError(
                 f"a robot of {robot_radius:g} m radius cannot drive in the home {home.name!r}: "
@@ -55,9 +64,7 @@ class RoutePlanner:
 
     def nearest_passable(self, xy: Sequence[float] | FloatArray) -> FloatArray:
         """The passable position closest to a world point."""
-        cells = self.passable_cells()
-        centres = self.geometry.world_of(cells)
-        return np.asarray(centres[np.argmin(((centres - np.asarray(xy)) ** 2).sum(axis=1))])
+        return np.asarray(self.geometry.world_of(self._nearest(self.passable, xy)))
 
     def route(self, start: FloatArray, goal: FloatArray) -> FloatArray:
         """A way (N, 2) in metres from one passable position to another, away from obstacles."""
@@ -67,6 +74,20 @@ class RoutePlanner:
         search.find_costs([from_cell], [to_cell])
         cells = np.array(search.traceback(to_cell))
         return smoothed(self.geometry.world_of(cells))
+
+    def _part_around(self, mask: BoolArray, xy: Sequence[float] | FloatArray) -> BoolArray:
+        """The connected part (4-neighbours) of a mask that comes nearest to a world point."""
+        labels, count = ndimage.label(mask)
+        if count == 0:
+            return mask
+        row, col = self._nearest(mask, xy)
+        return np.asarray(labels == labels[row, col])
+
+    def _nearest(self, mask: BoolArray, xy: Sequence[float] | FloatArray) -> IntArray:
+        """The cell `[row, col]` (2,) of a mask that is nearest to a world point."""
+        cells = np.argwhere(mask)
+        centres = self.geometry.world_of(cells)
+        return np.asarray(cells[np.argmin(((centres - np.asarray(xy)) ** 2).sum(axis=1))])
 
 
 def smoothed(way: FloatArray, reach: int = 4) -> FloatArray:
