@@ -21,6 +21,8 @@ from pathlib import Path
 
 import numpy as np
 
+from core.sensing import RobotLog, Trajectory
+
 COMMAND = [sys.executable, "-c", "from app.cli import main; main()"]
 KERNEL_SIZE, KERNEL_ROUNDS = 400, 12
 
@@ -72,6 +74,18 @@ def main() -> None:
     print(f"{'largest process, MB':<46}{peak:>9.0f}")
 
 
+def milliseconds_a_key_scan(drive: RobotLog, trajectory: Trajectory) -> float:
+    """Mean processor time that a live map takes for a scan, over a whole drive."""
+    from core.mapping.incremental_cemal import IncrementalCemal
+    from core.pipeline.growing_map import key_scans
+
+    growing, keys = IncrementalCemal(drive.ring), key_scans(trajectory)
+    start = time.process_time()
+    for scan, pose in zip(drive.taken(keys), trajectory.poses[keys], strict=True):
+        growing.add(scan, pose)
+    return (time.process_time() - start) / len(keys) * 1e3
+
+
 def stages(log: Path, work: Path, runs: int, fresh: bool) -> list[tuple[str, float]]:
     """Each stage and its median time in seconds."""
     from core.log_readers import read_log
@@ -79,7 +93,6 @@ def stages(log: Path, work: Path, runs: int, fresh: bool) -> list[tuple[str, flo
     from core.pipeline.modeller import ModellingOptions, model_log
     from core.segmentation.connected import largest_component
     from core.segmentation.offline import segment_offline
-    from core.sensing import Trajectory
     from core.topology.topology_of import topology_of
 
     drive = read_log(log).log
@@ -94,6 +107,8 @@ def stages(log: Path, work: Path, runs: int, fresh: bool) -> list[tuple[str, flo
     mapping = seconds(lambda: map_log(drive, trajectory), runs)
     rows.append((f"map, CEMAL, {echoes} echoes", mapping))
     rows.append(("  readings per second / 1000", drive.ranges.size / mapping / 1000))
+    growing = milliseconds_a_key_scan(drive, trajectory)
+    rows.append(("CEMAL scan by scan, CPU ms a key scan", growing))
     rows.append(("cut into 10 regions", seconds(lambda: segment_offline(floor, 10), runs)))
     rows.append(("topology", seconds(lambda: topology_of(result.grid, regions), runs)))
     rows.append(("echorooms --help", seconds(lambda: command("--help"), runs)))
