@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from scipy.spatial import ConvexHull
@@ -34,6 +35,7 @@ from app.viewer.paths import path_segments
 from core.geometry import FloatArray, IntArray
 from core.mapping.occupancy_grid import GridGeometry
 from core.topology import Model
+from core.topology.timeline import moments
 
 PATH_HEIGHT = 0.06
 
@@ -82,6 +84,8 @@ class Drawing:
         floors: pictures of the themes "light" and "dark"; `floor_margin` metres wider than the grid.
         edges, stems, path: (M, 2, 3) line segments.
         doors: (E, 3).
+        moments: the steps of the drive that made the model, each with its decisions.
+        step_pictures: what each of them looked like.
     """
 
     geometry: GridGeometry
@@ -101,6 +105,8 @@ class Drawing:
     tiles: Tiles
     wall_height: float
     furniture_height: float
+    moments: Sequence[Mapping[str, Any]] = ()
+    step_pictures: Sequence[bytes] = ()
 
 
 def draw(
@@ -159,6 +165,8 @@ def draw(
         tiles=cell_tiles(model, region_colours),
         wall_height=config.wall_height,
         furniture_height=config.furniture_height,
+        moments=moments(model.history),
+        step_pictures=model.timeline,
     )
 
 

@@ -80,8 +80,18 @@ class Playback(_Message):
     belief: Belief | None
 
 
+class Moment(_Message):
+    """Page -> view: show the model as it was at a step of its drive (null: as it is)."""
+
+    type: Literal["moment"]
+    step: int | None = Field(ge=0, le=1_000_000)
+    decision: int | None = Field(None, ge=0, le=10_000)
+    """Which tentative part of that step is looked at."""
+
+
 FromPage = Annotated[
-    Select | Layers | Camera | Measure | Theme | Viewport | Playback, Field(discriminator="type")
+    Select | Layers | Camera | Measure | Theme | Viewport | Playback | Moment,
+    Field(discriminator="type"),
 ]
 FROM_PAGE: TypeAdapter[FromPage] = TypeAdapter(FromPage)
 

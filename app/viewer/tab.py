@@ -21,6 +21,7 @@ from app.viewer.messages import (
     Layers,
     Measure,
     Measured,
+    Moment,
     Playback,
     Ready,
     Select,
@@ -29,6 +30,7 @@ from app.viewer.messages import (
     ToPage,
     Viewport,
 )
+from app.viewer.moment_playback import FINISHED, MomentPlayback
 from app.viewer.picking import floor_point, picked_node
 from app.viewer.playback import Playback as PlaybackState
 from app.viewer.tab_scene import TabScene
@@ -75,6 +77,7 @@ class Tab:
         self.mailbox: Mailbox | None = None
         self.last_used = time.monotonic()
         self.playback = PlaybackState()
+        self.moment = MomentPlayback()
         self._fitted: Fitted | None = None
         self._aim: Fitted | None = None
         self._travel: asyncio.Task[None] | None = None
@@ -105,10 +108,11 @@ class Tab:
         state = self.state
         self.scene = TabScene(client, drawing)
         self.scene.wear(state.theme)
-        self.scene.layers.show(state.layers)
+        self.scene.layers.show(self._visible(state.layers))
         self.scene.select(state.selected, state.others)
         self.scene.measure(state.points)
         self.playback.again(self.scene)
+        self.moment.again(self.scene, state.theme)
         if state.camera is None:
             self._stand_at_standard(self.scene)
         else:
@@ -123,6 +127,7 @@ class Tab:
         if self.scene is not None and self.scene.client.client_id == client.client_id:
             self._stop_moving()
             self.playback.stop()
+            self.moment.stop()
             self.scene = None
             self.tell_ready()
 
@@ -137,6 +142,7 @@ class Tab:
             self.scene.redraw(drawing)
             self.scene.select(self.state.selected, self.state.others)
             self.playback.again(self.scene, other_nodes=not _same_places(before, drawing.nodes))
+            self.moment.again(self.scene, self.state.theme)
             self.camera_moved()
 
     def handle(self, message: FromPage) -> None:
@@ -154,11 +160,14 @@ class Tab:
                 self.state.theme = message.theme
                 if self.scene is not None:
                     self.scene.wear(message.theme)
+                    self.moment.again(self.scene, message.theme)
             case Viewport():
                 self.state.picture_height = message.height
                 self.camera_moved()
             case Playback():
                 self._play(message)
+            case Moment():
+                self._show_moment(message)
 
     def click(self, drawing: Drawing, origin: FloatArray, direction: FloatArray) -> None:
         """A click in the 3D view, as a ray in the world."""
@@ -182,6 +191,7 @@ class Tab:
         """The view closes for good."""
         self._stop_moving()
         self.playback.stop()
+        self.moment.stop()
         self.scene = None
         if self.mailbox is not None:
             self.mailbox.close()
@@ -196,7 +206,18 @@ class Tab:
         known = {name: shown for name, shown in layers.items() if name in DEFAULT_LAYERS}
         self.state.layers |= known
         if self.scene is not None:
-            self.scene.layers.show(known)
+            self.scene.layers.show(self._visible(known))
+
+    def _visible(self, layers: dict[str, bool]) -> dict[str, bool]:
+        """What layers show now: those of the finished model are hidden while a moment is shown."""
+        hidden = FINISHED if self.moment.shown else ()
+        return {name: shown and name not in hidden for name, shown in layers.items()}
+
+    def _show_moment(self, message: Moment) -> None:
+        before = self.moment.shown
+        self.moment.show(message, self.scene, self.state.theme)
+        if before != self.moment.shown and self.scene is not None:
+            self.scene.layers.show(self._visible(self.state.layers))
 
     def _measure(self, on: bool) -> None:
         self.state.measuring = on

@@ -3,9 +3,11 @@ import { refreshLists, reloadModel, showRoute, takeLabels, upload } from "./acti
 import { details } from "./panels/details.js";
 import { redo, undo } from "./panels/edit_actions.js";
 import { startCut, stopCut } from "./panels/edit_cut.js";
+import { startGrowthPlayer } from "./panels/growth_player.js";
 import { layers } from "./panels/layers.js";
-import { localizationControls } from "./panels/localization_controls.js";
-import { goTo, isOpen, playPause, startPlayer, step } from "./panels/localization_player.js";
+import { startLocalizationPlayer } from "./panels/localization_player.js";
+import { goTo, isOpen, playPause, step } from "./panels/player.js";
+import { playerControls } from "./panels/player_controls.js";
 import { chooseFiles, library } from "./panels/library.js";
 import { renameSelected } from "./panels/node_table.js";
 import { stage } from "./panels/stage.js";
@@ -27,8 +29,9 @@ library(byId("library"));
 layers(byId("library"));
 stage(byId("stage"));
 details(byId("details"));
-localizationControls(byId("player"));
-startPlayer();
+playerControls(byId("player"));
+startLocalizationPlayer();
+startGrowthPlayer();
 
 onView({
   onLabels: takeLabels,
@@ -52,7 +55,7 @@ shortcut("r", "rename the selected room", renameSelected);
 shortcut("s", "split the selected room", () => get().selected && startCut(get().selected));
 shortcut("Ctrl+z", "undo the last edit", () => undo());
 shortcut("Ctrl+Shift+z", "redo it", redo);
-shortcut(" ", "play or pause a localization", () => isOpen() && playPause());
+shortcut(" ", "play or pause a localization or how a model grew", () => isOpen() && playPause());
 shortcut("ArrowLeft", "one step back", () => isOpen() && step(-1));
 shortcut("ArrowRight", "one step on", () => isOpen() && step(1));
 shortcut("Home", "the first step", () => isOpen() && goTo(0));

@@ -1,14 +1,20 @@
-// Addresses that can be sent to somebody: #/models/ID, #/models/ID/localizations/LID, #/logs/ID, #/.
+// Addresses that can be sent to somebody: #/models/ID, #/models/ID/localizations/LID, #/models/ID/growth,
+// #/logs/ID, #/.
 import { set } from "./store.js";
 
 export function parse(hash) {
   const [, log] = hash.match(/^#\/logs\/([^/]+)$/) ?? [];
-  const [, model, , localization] = hash.match(/^#\/models\/([^/]+)(\/localizations\/([^/]+))?$/) ?? [];
-  const home = { page: "home", id: null, localization: null };
+  const [, model, more, localization] = hash.match(/^#\/models\/([^/]+)(\/localizations\/([^/]+)|\/growth)?$/) ?? [];
+  const home = { page: "home", id: null, localization: null, growth: false };
   try {
     if (log) return { ...home, page: "log", id: decodeURIComponent(log) };
     if (!model) return home;
-    return { page: "model", id: decodeURIComponent(model), localization: localization ? decodeURIComponent(localization) : null };
+    return {
+      page: "model",
+      id: decodeURIComponent(model),
+      localization: localization ? decodeURIComponent(localization) : null,
+      growth: more === "/growth",
+    };
   } catch {
     return home;
   }
@@ -17,6 +23,7 @@ export function parse(hash) {
 export const link = {
   home: () => "#/",
   model: (id) => `#/models/${encodeURIComponent(id)}`,
+  growth: (model) => `${link.model(model)}/growth`,
   localization: (model, id) => `${link.model(model)}/localizations/${encodeURIComponent(id)}`,
   log: (id) => `#/logs/${encodeURIComponent(id)}`,
 };

@@ -3,14 +3,16 @@
 const state = {
   logs: null, // summaries, null until loaded
   models: null,
-  route: { page: "home", id: null, localization: null },
+  route: { page: "home", id: null, localization: null, growth: false },
   log: null, // detail of the log that is shown
   model: null, // detail of the model that is shown
   job: null, // the job that makes the shown model
   localizations: null, // summaries of those in the shown model, null until loaded
   localizing: {}, // localization id -> its job while it runs
   localization: null, // the one that is open, with its steps as `steps_list`
-  stepIndex: 0, // which of its steps is shown, from 0
+  timeline: null, // the moments of the drive along which the shown model grew, null until loaded
+  decision: null, // which tentative part of the shown moment is looked at, from 0
+  stepIndex: 0, // which step of a localization or of the timeline is shown, from 0
   playing: false,
   speed: 1, // steps a second
   selected: null, // node id

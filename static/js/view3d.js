@@ -13,6 +13,7 @@ const SHARPNESS = /^\?fixedDpr=[\d.]+$/.test(location.search) ? location.search 
 
 let current = null; // {model, socket, frame, tries, timer}
 let belief = null; // what is played
+let moment = null; // {step, decision} of the drive that is shown instead of the finished model
 const handlers = {};
 
 /** Hears what the view says: onLabels, onSelected, onChanged, onDeleted. */
@@ -91,6 +92,14 @@ export function showBelief(next) {
   sendKeys();
 }
 
+/** Shows a moment of the drive instead of the finished model; null ends it. */
+export function showMoment(next) {
+  if (JSON.stringify(next) === JSON.stringify(moment)) return;
+  moment = next;
+  tell({ type: "moment", step: null, ...moment });
+  sendKeys();
+}
+
 function connect(view) {
   const socket = new WebSocket(new URL(
     `view/${encodeURIComponent(view.model)}/events?tab=${tabToken()}`, document.baseURI,
@@ -100,6 +109,7 @@ function connect(view) {
     view.tries = 0;
     tell({ type: "theme", theme: theme() });
     tell({ type: "playback", belief });
+    if (moment) tell({ type: "moment", ...moment });
     sendHeight();
   };
   socket.onmessage = (event) => {
@@ -163,7 +173,7 @@ function sendTheme() {
 
 /** While something is played, the arrows left and right are the player's, not the camera's. */
 function sendKeys() {
-  current?.frame.contentWindow?.postMessage({ type: "keys", player: belief !== null }, location.origin);
+  current?.frame.contentWindow?.postMessage({ type: "keys", player: belief !== null || moment !== null }, location.origin);
 }
 
 function sendHeight() {

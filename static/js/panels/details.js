@@ -1,7 +1,9 @@
 // The right column: the rooms of a model, or the form that makes one from a log.
 import { h, replace } from "../dom.js";
 import { get, watch } from "../store.js";
+import { convexityChart } from "./convexity_chart.js";
 import { editHistory } from "./edit_history.js";
+import { growthPanel } from "./growth_panel.js";
 import { localizationList } from "./localization_list.js";
 import { localizationPanel } from "./localization_panel.js";
 import { modelFacts } from "./model_facts.js";
@@ -14,23 +16,28 @@ export function details(root) {
   const history = h("div", { class: "edit-history", role: "group", "aria-label": "Undo and redo" });
   const chosen = h("section", { class: "selection", "aria-live": "polite" });
   const localizations = h("section", { class: "localizations" });
+  const convexity = h("section", {});
   const facts = h("section", {});
-  const rooms = h("div", { class: "stack" }, table, chosen, localizations, facts);
+  const rooms = h("div", { class: "stack" }, table, chosen, localizations, convexity, facts);
   const played = h("div", { class: "stack localization" });
+  const grew = h("div", { class: "stack growth" });
   const form = h("div", { class: "stack" });
-  replace(root, rooms, played, form);
+  replace(root, rooms, played, grew, form);
   nodeTable(table);
   table.querySelector("h2").append(history);
   editHistory(history);
   selection(chosen);
+  convexityChart(convexity);
   modelFacts(facts);
   localizationList(localizations);
   localizationPanel(played);
+  growthPanel(grew);
   watch(["route", "log", "model"], () => {
     const { log, model, route } = get();
     const showsRooms = route.page === "model" && model?.status === "done";
     const showsForm = route.page === "log" && log !== null;
-    rooms.hidden = !showsRooms || route.localization !== null;
+    rooms.hidden = !showsRooms || route.localization !== null || route.growth;
+    grew.hidden = !showsRooms || !route.growth;
     played.hidden = !showsRooms || route.localization === null;
     form.hidden = !showsForm;
     root.hidden = !showsRooms && !showsForm;

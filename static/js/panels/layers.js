@@ -26,7 +26,7 @@ export function layers(root) {
     h("div", { class: "checks" }, [...boxes.values()].map((item) => item.label)));
   root.append(section);
   watch(["layers", "connection", "route"], (state) => {
-    section.hidden = state.connection === "none";
+    section.hidden = state.connection === "none" || state.route.growth;
     for (const [name, { box, label }] of boxes) {
       label.hidden = !(name in state.layers) || (PLAYED.has(name) && !state.route.localization);
       box.checked = Boolean(state.layers[name]);

@@ -1,5 +1,5 @@
 // How the open model was made.
-import { h, replace } from "../dom.js";
+import { h, icon, replace } from "../dom.js";
 import { files } from "../api.js";
 import { addLog } from "../actions.js";
 import { bytes, count, when } from "../format.js";
@@ -15,7 +15,9 @@ export function modelFacts(root) {
       return;
     }
     const options = Object.entries(WORDS).filter(([key]) => model.options[key] !== undefined && model.options[key] !== null);
-    replace(root, h("details", { class: "advanced" }, h("summary", {}, "About this model"), h("dl", { class: "facts" },
+    replace(root, model.log_ids.length > 0 && model.options.regions == null && model.options.mode !== "offline" && h("p", { class: "grew" },
+      h("a", { class: "button", href: link.growth(model.id) }, icon("play"), "How it grew along the drive")),
+    h("details", { class: "advanced" }, h("summary", {}, "About this model"), h("dl", { class: "facts" },
       fact("Floor", `${model.area_m2.toFixed(0)} m², ${count(model.node_count, "region")}, ${count(model.room_count, "room")}`),
       fact("Made", when(model.created)),
       fact("Log", model.log_ids.length ? model.log_ids.map((id) => h("a", { href: link.log(id) }, logs?.find((log) => log.id === id)?.name ?? id)) : "an imported map"),
