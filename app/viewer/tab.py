@@ -218,6 +218,8 @@ class Tab:
         self.moment.show(message, self.scene, self.state.theme)
         if before != self.moment.shown and self.scene is not None:
             self.scene.layers.show(self._visible(self.state.layers))
+            if self._fitted is not None:
+                self._go("fit")
 
     def _measure(self, on: bool) -> None:
         self.state.measuring = on
