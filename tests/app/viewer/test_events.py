@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import time
+from dataclasses import replace
 
+import numpy as np
 import pytest
 from websockets.exceptions import ConnectionClosed
 
 from app.viewer.hub import HubConfig
+from core.segmentation.step_picture import StepPicture
 from core.topology import Model
 
 ONE, TWO = "tab-one-0001", "tab-two-0002"
@@ -257,3 +260,39 @@ def test_probabilities_are_bars_in_one_tab(server):
         server.call(server.hub.set_robot, "m1", ONE, (0.5, 3.0, 1.0))
         mine.wait_for(lambda m: m.get("name") == "/robot/body/hull")
         assert "/bars/boxes" not in names(other.drain())
+
+
+def with_one_moment(model: Model) -> Model:
+    """The model as if a drive of one step had made it."""
+    none = np.zeros_like(model.regions)
+    hull = [[-1.0, 2.0], [1.0, 2.0], [1.0, 4.0]]
+    history = (
+        {
+            "event": "step",
+            "step": 0,
+            "pose": [0.5, 3.0, 0.0],
+            "picture": {"origin": list(model.grid.geometry.origin), "resolution": 0.05},
+        },
+        {"event": "extract", "step": 0, "accepted": True, "hull": hull, "cut": [hull[:2]]},
+    )
+    picture = StepPicture(model.grid.state, none, model.regions)
+    return replace(model, history=history, timeline=(picture.png(),))
+
+
+def test_a_moment_of_the_drive_takes_the_place_of_the_finished_model(server):
+    server.models["grown"] = with_one_moment(server.models["m1"])
+    with server.page("grown", ONE) as page, server.view("grown", ONE) as view:
+        assert page.wait_for("ready")["connected"]
+        page.send(type="moment", step=0, decision=0)
+        for part in ("floor", "hulls/yes", "chosen/yes", "cut"):
+            view.wait_for(lambda m, name=f"/moment/{part}": m.get("name") == name)
+        page.send(type="moment", step=None)
+        view.wait_for(lambda m: m.get("name") == "/moment" and "Remove" in m["type"])
+
+
+def test_a_moment_that_is_not_there_changes_nothing(server):
+    with server.page("m1", ONE) as page, server.view("m1", ONE) as view:
+        assert page.wait_for("ready")["connected"]
+        view.drain()
+        page.send(type="moment", step=5)
+        assert "/moment/floor" not in names(view.drain())
