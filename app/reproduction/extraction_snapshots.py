@@ -11,7 +11,7 @@ from core.mapping import OccupancyGrid
 from core.pipeline.growing_model import METHODS, GrowingModel
 from core.pipeline.mapper import MappingOptions, map_log
 from core.progress import Progress, no_progress
-from core.segmentation.autonomous import region_image
+from core.segmentation.latest_regions import region_image
 from core.sensing import RobotLog, Trajectory
 
 SHARES = (0.25, 0.5, 0.75)

@@ -16,7 +16,7 @@ from core.pipeline.growing_model import METHODS, GrowingModel, MethodName, grown
 from core.pipeline.mapper import MappingOptions
 from core.progress import Progress, no_progress, part_of
 from core.segmentation.automatic import AutomaticConfig, segment_automatically
-from core.segmentation.autonomous import region_image
+from core.segmentation.latest_regions import region_image
 from core.segmentation.offline import OfflineConfig, segment_offline
 from core.segmentation.paper_extraction import PaperConfig
 from core.sensing import RobotLog, Trajectory

@@ -16,12 +16,14 @@ from core.pipeline.region_finder import found_so_far
 from core.sensing import RobotLog, Trajectory
 from core.sensing.robot_log import join
 
+SCANS = 900
+"""Of the drive, some 35 m through three rooms."""
 SAMPLES = Path(__file__).parents[3] / "sample_logs"
 
 
 @pytest.fixture(scope="module")
 def drive() -> RobotLog:
-    return read_log(SAMPLES / "flat-mapping.jsonl.gz").log.without_truth()
+    return read_log(SAMPLES / "flat-mapping.jsonl.gz").log.without_truth().slice(0, SCANS)
 
 
 @pytest.fixture(scope="module")

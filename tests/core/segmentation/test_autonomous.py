@@ -2,8 +2,9 @@ import numpy as np
 
 from core.geometry import FloatArray
 from core.mapping import GridGeometry, OccupancyGrid
-from core.segmentation.autonomous import extract, finish, region_image
+from core.segmentation.autonomous import extract, finish
 from core.segmentation.extraction_state import ExtractionState, lattice_corner, painted
+from core.segmentation.latest_regions import region_image
 from core.segmentation.moment import Moment
 
 LEFT, RIGHT = np.array([2.5, 2.0, 0.0]), np.array([7.0, 2.0, 0.0])
