@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import ndimage
 
-from core.geometry import FloatArray, compose, rigid_fit, travelled
+from core.geometry import FloatArray, compose, rigid_fit
 from core.localization.localization_step import LocalizationStep
 from core.sensing import RobotLog
 from core.topology import Model
@@ -27,6 +27,8 @@ EARLY_STEPS = 5
 """Steps that a global start is given before "late" figures count."""
 BINS = 10
 """Bins of the reliability diagram."""
+CARRIED = 1.0
+"""Metres between two scans from which on the robot was carried, not driven."""
 
 
 @dataclass(frozen=True)
@@ -88,7 +90,7 @@ def outcomes(
         t, truth: times (N,) and true poses (N, 3) in the model's frame.
     """
     node_at = _true_nodes(model, truth[:, :2])
-    driven = travelled(truth)
+    driven = driven_metres(truth)
     found = []
     for step in steps:
         k = int(np.abs(t - step.t).argmin())
@@ -132,12 +134,24 @@ def summary(drives: Sequence[Sequence[StepOutcome]]) -> LocalizationScore:
     )
 
 
-def converged_after(drive: Sequence[StepOutcome], since: float = -np.inf) -> float:
-    """Metres driven, from time `since` on, until a step is certain and right; inf = never."""
-    after = [s for s in drive if s.t >= since]
-    before = [s.metres for s in drive if s.t < since]
-    start = before[-1] if before else 0.0
-    return next((s.metres - start for s in after if s.right and s.probability > SURE), np.inf)
+def driven_metres(truth: FloatArray) -> FloatArray:
+    """Metres driven until each true pose (N, 3); being carried is no driving."""
+    hops = np.hypot(*np.diff(truth[:, :2], axis=0).T)
+    return np.append(0.0, np.cumsum(np.where(hops < CARRIED, hops, 0.0)))
+
+
+def converged_after(
+    drive: Sequence[StepOutcome], since: float = -np.inf, start: float = 0.0
+) -> float:
+    """Metres driven until a step is certain and right; inf = never.
+
+    Args:
+        drive: the scored steps.
+        since: time from which on steps count.
+        start: metres driven until then.
+    """
+    good = (s for s in drive if s.t >= since and s.right and s.probability > SURE)
+    return next((s.metres - start for s in good), np.inf)
 
 
 def reliability(probabilities: FloatArray, right: FloatArray) -> FloatArray:

@@ -170,12 +170,10 @@ class MonteCarloLocalizer:
         node = places.node_of[cells[:, 0], cells[:, 1]]
         mass = np.bincount(node, state.weights, minlength=len(places.nodes))
         p = np.asarray(mass / mass.sum(), float)
-        candidates = {}
-        for i, name in enumerate(places.nodes):
+        poses = np.full((len(places.nodes), 3), np.nan)
+        for i in np.unique(node):
             inside = node == i
-            if inside.any():
-                pose = _mean_pose(state.poses[inside], state.weights[inside])
-                candidates[name] = Candidate(pose, float(p[i]))
+            poses[i] = _mean_pose(state.poses[inside], state.weights[inside])
         best = int(p.argmax())
         return LocalizationStep(
             state.steps,
@@ -183,12 +181,12 @@ class MonteCarloLocalizer:
             dict(zip(places.nodes, p.tolist(), strict=True)),
             0.0,
             places.nodes[best],
-            candidates[places.nodes[best]].pose,
+            poses[best],
             entropy_of(p),
             len(segment) > 0,
-            candidates,
+            {places.nodes[i]: Candidate(poses[i], float(p[i])) for i in np.unique(node)},
             segment.echo_points(),
-            explain(places.names, p, 0.0, p, segment.distance),
+            explain(places.names, p, 0.0, p, segment.distance, poses),
         )
 
 

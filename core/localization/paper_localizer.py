@@ -203,7 +203,7 @@ class PaperLocalizer:
         fits = state.fits if state.fits is not None else np.zeros(n)
         best = int(p.argmax())
         distance = float(np.hypot(*np.diff(part.odometry[:, :2], axis=0).T).sum())
-        why = explain(self.names, p, 0.0, fits, distance)
+        why = explain(self.names, p, 0.0, fits, distance, poses)
         return LocalizationStep(
             state.steps,
             float(part.t[-1]),

@@ -9,14 +9,14 @@ the probability of a node is the mass of the poses in it.
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from core.geometry import FloatArray
+from core.localization.carried_robot import CarriedConfig, chance_carried, mixed
 from core.localization.entropy_test import entropy_of
-from core.localization.evidence import EvidenceConfig, evidence_of
+from core.localization.evidence import EvidenceConfig, updated
 from core.localization.expected_range import ExpectedRangeConfig
 from core.localization.explanation import explain
 from core.localization.localization_step import Candidate, LocalizationStep
@@ -54,6 +54,7 @@ class PoseGridConfig:
     motion: PoseMotionConfig = field(default_factory=PoseMotionConfig)
     observation: ObservationConfig = field(default_factory=ObservationConfig)
     evidence: EvidenceConfig = field(default_factory=EvidenceConfig)
+    carried: CarriedConfig = field(default_factory=CarriedConfig)
     nodes: NodeBeliefConfig = field(default_factory=NodeBeliefConfig)
     fit: FitConfig = field(default_factory=FitConfig)
 
@@ -108,23 +109,49 @@ class PoseGridLocalizer:
         )  # fmt: skip
 
     def corrected(self, prior: PoseBelief, segment: Segment) -> PoseBelief:
-        """The belief after the readings of a segment (eq. 16 over poses)."""
+        """The belief after the readings of a segment (eq. 16 over poses).
+
+        A robot that was carried somewhere in the middle of the segment is looked for with the
+        newest readings alone.
+        """
+        belief = self._updated(prior, segment)
+        newest = segment.newest(self.config.carried.newest)
+        if not self._may_be_carried(belief, newest):
+            return belief
+        anywhere = PoseBelief.anywhere(self.places.grid, self.config.unknown_at_start)
+        scores = self.scores(mixed(belief, anywhere, 0.5), newest)
+        chance = chance_carried(
+            belief,
+            anywhere,
+            scores,
+            self.config.evidence.temper,
+            self.config.carried.suspicion,
+        )
+        return mixed(belief, self._updated(anywhere, newest), chance)
+
+    def _updated(self, prior: PoseBelief, segment: Segment) -> PoseBelief:
         if len(segment) == 0:
             return prior
         possible = self.best_possible(segment)
-        score, outside = evidence_of(
+        return updated(
+            prior,
             self.scores(prior, segment),
             self.places.blocks,
             self.config.unknown_fit * possible,
             possible,
             self.config.evidence,
         )
-        mass = prior.mass * np.exp(score)
-        outside = prior.unknown * math.exp(outside)
-        total = float(mass.sum(dtype=np.float64)) + outside
-        if not total > 0 or not math.isfinite(total):
-            return prior
-        return PoseBelief((mass / total).astype(np.float32), outside / total)
+
+    def _may_be_carried(self, belief: PoseBelief, newest: Segment) -> bool:
+        """Whether the newest readings contradict the most probable place."""
+        if len(newest) == 0 or not belief.mass.any():
+            return False
+        index = np.unravel_index(int(belief.mass.argmax()), belief.mass.shape)
+        pose = self.places.grid.world_pose(*(float(i) for i in index))
+        fit = share_explained(
+            newest, pose[None], self.kinds, self.kind_of_sonar, self.places.grid, self.config.fit
+        )
+        return float(fit[0]) < self.config.carried.explained
 
     def scores(self, prior: PoseBelief, segment: Segment) -> ScoreArray:
         """The log-likelihood ratio of a segment at every pose (headings, rows, cols)."""
@@ -162,7 +189,7 @@ class PoseGridLocalizer:
             len(segment) > 0,
             _candidates(places.nodes, poses, fits),
             segment.echo_points(),
-            explain(places.names, probabilities, belief.unknown, fits, segment.distance),
+            explain(places.names, probabilities, belief.unknown, fits, segment.distance, poses),
         )
 
 

@@ -6,7 +6,7 @@ where the robot is now. Odometry over a few metres is good enough for that.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -30,7 +30,7 @@ class SegmentConfig:
 
 @dataclass(frozen=True)
 class Segment:
-    """Readings of a step in the frame of its last pose (all arrays of length M).
+    """Readings of a step in the frame of its last pose, newest first (all arrays of length M).
 
     Attributes:
         codes: reading codes.
@@ -55,6 +55,19 @@ class Segment:
 
     def __len__(self) -> int:
         return len(self.codes)
+
+    def newest(self, share: float) -> Segment:
+        """The newest share of the readings alone."""
+        part = slice(0, round(share * len(self)))
+        return replace(
+            self,
+            codes=self.codes[part],
+            x=self.x[part],
+            y=self.y[part],
+            heading=self.heading[part],
+            sonar=self.sonar[part],
+            ranges=self.ranges[part],
+        )
 
     def echo_points(self) -> FloatArray:
         """Where the echoes came from, on the axes of the beams: (K, 2) in the frame of the segment."""

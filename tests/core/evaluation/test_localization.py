@@ -9,6 +9,7 @@ from core.evaluation.localization import (
     StepOutcome,
     calibration_error,
     converged_after,
+    driven_metres,
     reliability,
     summary,
 )
@@ -34,9 +35,14 @@ def test_summary_of_four_steps() -> None:
     assert score.position_error == pytest.approx(0.1)
 
 
-def test_recovery_counts_from_the_last_step_before() -> None:
-    assert converged_after(DRIVE, since=3.0) == pytest.approx(5.0)
+def test_recovery_counts_from_where_the_robot_was_carried() -> None:
+    assert converged_after(DRIVE, since=3.0, start=6.0) == pytest.approx(4.0)
     assert converged_after(DRIVE[:2]) == np.inf
+
+
+def test_being_carried_is_no_driving() -> None:
+    path = np.array([[0.0, 0.0, 0.0], [0.5, 0.0, 0.0], [5.0, 0.0, 0.0], [5.0, 0.5, 0.0]])
+    assert driven_metres(path).tolist() == [0.0, 0.5, 0.5, 1.0]
 
 
 def test_calibration_error_is_the_weighted_distance_from_the_diagonal() -> None:

@@ -9,7 +9,6 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from core.localization.evidence import discounted
 from core.localization.expected_range import (
     NOTHING,
     OPEN,
@@ -115,9 +114,3 @@ def test_mass_and_unknown_sum_to_one_after_any_motion(
     moved = predict(start, grid, (dx, dy, turn), math.hypot(dx, dy), abs(turn), PoseMotionConfig())
     assert moved.mass.sum(dtype=float) + moved.unknown == pytest.approx(1.0, abs=1e-4)
     assert (moved.mass >= 0).all()
-
-
-def test_small_gaps_count_little_and_large_ones_nearly_in_full() -> None:
-    assert discounted(0.0, 30.0) == 0.0
-    assert discounted(30.0, 30.0) == pytest.approx(15.0)
-    assert discounted(300.0, 30.0) == pytest.approx(297.0, abs=0.1)
