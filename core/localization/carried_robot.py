@@ -33,7 +33,7 @@ class CarriedConfig:
 
     newest: float = 1 / 3
     explained: float = 0.5
-    suspicion: float = 0.3
+    suspicion: float = 0.1
 
 
 def chance_carried(

@@ -18,7 +18,7 @@ from core.localization.carried_robot import CarriedConfig, chance_carried, mixed
 from core.localization.entropy_test import entropy_of
 from core.localization.evidence import EvidenceConfig, updated
 from core.localization.expected_range import ExpectedRangeConfig
-from core.localization.explanation import explain
+from core.localization.explanation import MOSTLY, explain
 from core.localization.localization_step import Candidate, LocalizationStep
 from core.localization.node_belief import NodeBeliefConfig, best_poses, node_probabilities
 from core.localization.place_map import PlaceMap, place_map, sonar_tables
@@ -144,7 +144,7 @@ class PoseGridLocalizer:
 
     def _may_be_carried(self, belief: PoseBelief, newest: Segment) -> bool:
         """Whether the newest readings contradict the most probable place."""
-        if len(newest) == 0 or not belief.mass.any():
+        if len(newest) == 0 or belief.unknown > MOSTLY:
             return False
         index = np.unravel_index(int(belief.mass.argmax()), belief.mass.shape)
         pose = self.places.grid.world_pose(*(float(i) for i in index))

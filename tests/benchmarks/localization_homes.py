@@ -172,7 +172,8 @@ def print_tables(found: list[Found], methods: list[str]) -> None:
         for kind in dict.fromkeys(f.kind for f in own):
             print(row(name, kind, [f for f in own if f.kind == kind]))
         ordinary = [f for f in own if f.kind != "mirrored"]
-        print(row(name, "all ordinary", ordinary))
+        if ordinary:
+            print(row(name, "all ordinary", ordinary))
         carried = [f for f in own if f.carried]
         metres = np.sort([converged_after(f.steps, *f.carried) for f in carried if f.carried])
         print(f"{name}: right again after {metres.round(1).tolist()} m")
