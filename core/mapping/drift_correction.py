@@ -12,68 +12,24 @@ Everything is anchored at the first pose and deterministic.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from core.geometry import FloatArray, IntArray
+from core.mapping.drift_config import DriftConfig
 from core.mapping.graph_terms import Link
-from core.mapping.loop_closure import Closure, ClosureConfig, close_loops
+from core.mapping.loop_closure import Closure, close_loops
+from core.mapping.node_view import local_map, walls_at
 from core.mapping.odometry_calibration import OdometryCalibration
-from core.mapping.odometry_model import OdometryNoise, through_nodes, without_systematic_error
-from core.mapping.point_alignment import AlignmentConfig, align
-from core.mapping.pose_graph import GraphConfig, PoseGraph
-from core.mapping.reflection_points import (
-    ReflectionConfig,
-    ReflectionPoints,
-    path_length,
-    reflection_points,
-)
-from core.mapping.scan_matching import (
-    MatchingConfig,
-    Submap,
-    points_from,
-    points_of_stretch,
-    submap,
-)
-from core.mapping.wall_direction import WallDirectionConfig, wall_direction, wrap_quarter
+from core.mapping.odometry_model import through_nodes, without_systematic_error
+from core.mapping.point_alignment import align
+from core.mapping.pose_graph import PoseGraph
+from core.mapping.reflection_points import path_length, reflection_points
+from core.mapping.scan_matching import Submap
 from core.progress import Progress, no_progress
 from core.sensing.robot_log import RobotLog
 from core.sensing.trajectory import Trajectory
-
-
-@dataclass(frozen=True)
-class DriftConfig:
-    """Parameters of the whole; those of the stages sit beside them.
-
-    Attributes:
-        spacing: travel between two nodes (m).
-        half_span: a submap reaches this many nodes, and a half, to both sides.
-        apart: nodes at least this far apart are tried against each other.
-        wall_span: travel before and after a node from which its walls are seen (m).
-        aligned_wall_sigma: standard deviation of a wall direction while visits are aligned (rad): the
-            nodes are denser then, and see the same walls more often.
-        use_walls: the walls' directions count (the Manhattan assumption).
-        kept_closure_weight: share of its information that a closure keeps while visits are aligned,
-            which says the same more sharply.
-        refinement: nodes per `spacing` while visits are aligned.
-    """
-
-    spacing: float = 1.5
-    half_span: int = 2
-    apart: int = 6
-    wall_span: float = 5.0
-    aligned_wall_sigma: float = math.radians(3.75)
-    use_walls: bool = True
-    kept_closure_weight: float = 0.05
-    refinement: int = 2
-    reflection: ReflectionConfig = field(default_factory=ReflectionConfig)
-    matching: MatchingConfig = field(default_factory=MatchingConfig)
-    closure: ClosureConfig = field(default_factory=ClosureConfig)
-    walls: WallDirectionConfig = field(default_factory=WallDirectionConfig)
-    graph: GraphConfig = field(default_factory=GraphConfig)
-    alignment: AlignmentConfig = field(default_factory=AlignmentConfig)
-    noise: OdometryNoise = field(default_factory=OdometryNoise)
 
 
 @dataclass(frozen=True)
@@ -139,7 +95,7 @@ def _follow(
             graph.extend()
         graph.solve(2)
         local = without_systematic_error(log.odometry, graph.error)
-        submaps[node] = _local_map(graph, points, local, length, node, config)
+        submaps[node] = local_map(graph, points, local, length, node, config)
         others = [other for other in submaps if node - other >= config.apart]
         found = close_loops(graph, submaps, node, others, log.t, config.closure, config.matching)
         closures += found
@@ -147,40 +103,6 @@ def _follow(
             graph.solve(3)
         progress(0.8 * (node + 1) / len(graph.nodes), "closing loops")
     return closures
-
-
-def _local_map(
-    graph: PoseGraph,
-    points: ReflectionPoints,
-    local: FloatArray,
-    length: FloatArray,
-    node: int,
-    config: DriftConfig,
-) -> Submap:
-    """The submap of a node; tells the graph the direction of its walls."""
-    anchor = int(graph.nodes[node])
-    half = (config.half_span + 0.5) * config.spacing
-    part = points_of_stretch(points, length, length[anchor] - half, length[anchor] + half)
-    if config.use_walls:
-        direction = _walls_at(points, local, length, anchor, config.wall_span, config)
-        if direction is not None:
-            if not graph.walls:
-                graph.wall_heading = float(wrap_quarter(direction + graph.poses[node, 2]))
-            graph.walls[node] = direction
-    return submap(points, local, anchor, part, config.matching)
-
-
-def _walls_at(
-    points: ReflectionPoints,
-    local: FloatArray,
-    length: FloatArray,
-    anchor: int,
-    span: float,
-    config: DriftConfig,
-) -> float | None:
-    """Direction of the walls around a scan in its robot's frame, seen within `span` of travel (m)."""
-    part = points_of_stretch(points, length, length[anchor] - span, length[anchor] + span)
-    return wall_direction(*points_from(points, local, anchor, part), config.walls)
 
 
 def _align(
@@ -214,7 +136,7 @@ def _align(
     if config.use_walls:
         span = (config.half_span + 0.5) * config.spacing
         seen = {
-            node: _walls_at(points, coarse, length, int(scan), span, config)
+            node: walls_at(points, coarse, length, int(scan), span, config)
             for node, scan in enumerate(nodes)
         }
         fine.walls = {node: value for node, value in seen.items() if value is not None}

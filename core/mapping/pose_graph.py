@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from scipy import sparse
@@ -76,11 +77,6 @@ class PoseGraph:
     config: GraphConfig = field(default_factory=GraphConfig)
 
     def __post_init__(self) -> None:
-        steps = np.hypot(*np.diff(self.odometry[:, :2], axis=0).T)
-        total = np.concatenate(([0.0], np.cumsum(steps)))
-        self.distance = np.diff(total[self.nodes])
-        turns = np.abs(wrap_angle(np.diff(self.odometry[:, 2])))
-        self.turned = np.diff(np.concatenate(([0.0], np.cumsum(turns)))[self.nodes])
         self.poses = self.odometry[self.nodes[:1]].copy()
         self.error = np.zeros(3)
         self.links: list[Link] = []
@@ -89,7 +85,16 @@ class PoseGraph:
         self.wall_heading = 0.0
         self.point_links: PointLinks | None = None
         self._factor: SuperLU | None = None
-        self._linearise()
+        self._measure()
+
+    def __getstate__(self) -> dict[str, Any]:
+        """Everything but the factor of the system, which cannot be kept: solve again after loading."""
+        return self.__dict__ | {"_factor": None}
+
+    def lengthen(self, odometry: FloatArray, nodes: IntArray) -> None:
+        """Takes in more of the drive; what was there before stays its beginning."""
+        self.odometry, self.nodes = odometry, nodes
+        self._measure()
 
     def restart(self, error: FloatArray, wall_heading: float) -> None:
         """Takes over what another graph of the same drive found about the shared unknowns."""
@@ -173,6 +178,15 @@ class PoseGraph:
         k = np.arange(len(self.poses) - 1)
         residual, _, _ = residuals(self.poses, k, k + 1, self.motion[: len(k)])
         return residual
+
+    def _measure(self) -> None:
+        """Lengths, turns and motions between all nodes."""
+        steps = np.hypot(*np.diff(self.odometry[:, :2], axis=0).T)
+        total = np.concatenate(([0.0], np.cumsum(steps)))
+        self.distance = np.diff(total[self.nodes])
+        turns = np.abs(wrap_angle(np.diff(self.odometry[:, 2])))
+        self.turned = np.diff(np.concatenate(([0.0], np.cumsum(turns)))[self.nodes])
+        self._linearise()
 
     def _linearise(self) -> None:
         """Motions between all nodes at the current systematic error, and their derivatives."""

@@ -12,7 +12,8 @@ from typing import Literal
 import numpy as np
 
 from core.geometry import FloatArray
-from core.mapping.drift_correction import DriftConfig, DriftResult, correct_drift
+from core.mapping.drift_config import DriftConfig
+from core.mapping.drift_correction import DriftResult, correct_drift
 from core.mapping.loop_closure import Closure
 from core.mapping.map_sharpness import SharpnessConfig, map_sharpness
 from core.mapping.odometry_breaks import (
