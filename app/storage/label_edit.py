@@ -7,6 +7,7 @@ from pathlib import Path
 
 from app.errors import NotFound
 from app.storage.model_files import Edit
+from core.topology.continuation import continued
 from core.topology.labels import carried_labels, label_node, label_room, with_rooms
 from core.topology.model_folder import read_model, read_topology, store_labels
 
@@ -53,3 +54,9 @@ def carry_labels(earlier: Path, later: Path) -> None:
             replace(node, label=labels.get(node.region, node.label)) for node in new.topology.nodes
         )
         store_labels(with_rooms(replace(new.topology, nodes=nodes)), later)
+
+
+def carry_identity(earlier: Path, later: Path) -> None:
+    """Gives a model that was made again the ids, names and rooms that it had, by overlap."""
+    old, new = read_model(earlier), read_model(later)
+    store_labels(continued(new.topology, new.regions, new.grid.geometry, old), later)

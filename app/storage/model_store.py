@@ -131,7 +131,8 @@ class ModelStore:
         Args:
             log_ids: the logs that it is made from.
             facts: what `facts_of` tells of the folder.
-            labels_from: the model whose labels, as they are now, go along by overlap.
+            labels_from: the model whose labels, as they are now, go along by overlap; when it is
+                this very model, so do the ids of nodes, rooms and doorways.
 
         Raises:
             NotFound: the model was deleted meanwhile.
@@ -140,9 +141,10 @@ class ModelStore:
             self.get(model_id)
             named = self._files.present(labels_from) if labels_from else None
             if named is not None:
-                from app.storage.label_edit import carry_labels
+                from app.storage.label_edit import carry_identity, carry_labels
 
-                carry_labels(named, prepared)
+                carry = carry_identity if labels_from == model_id else carry_labels
+                carry(named, prepared)
                 facts = facts_of(prepared)
             self._files.renew(model_id, prepared)
             with self._database.write() as connection:

@@ -27,7 +27,8 @@ from core.progress import Progress, no_progress, part_of
 from core.segmentation.connected import largest_component
 from core.sensing import RobotLog, Trajectory
 from core.topology import Model
-from core.topology.labels import carried_labels, room_image
+from core.topology.continuation import continued
+from core.topology.labels import room_image
 from core.topology.topology_of import topology_of
 
 Mode = Literal["autonomous", "offline"]
@@ -84,7 +85,7 @@ def model_log(
         log: the drive; its truth is not looked at.
         options: what the user chose.
         progress: told all along.
-        previous: an earlier model of the same drive, whose labels go along by overlap.
+        previous: an earlier model of the same drive, whose ids and labels go along by overlap.
 
     Raises:
         InputError: the log cannot be modelled so.
@@ -158,20 +159,16 @@ def _model(
     provenance: dict[str, Any],
     previous: Model | None,
 ) -> Model:
-    labels = (
-        carried_labels(
-            previous.topology,
-            previous.regions,
-            previous.grid.geometry,
-            found.regions,
-            grid.geometry,
-        )
-        if previous
-        else {}
-    )
     topology = topology_of(
-        grid, found.regions, found.rooms, labels, found.node_ids, found.next_number
+        grid,
+        found.regions,
+        found.rooms,
+        node_ids=found.node_ids,
+        next_number=found.next_number,
+        came_from=found.came_from,
     )
+    if previous:
+        topology = continued(topology, found.regions, grid.geometry, previous)
     provenance |= {
         "options": asdict(options),
         "segmentation": found.parameters,

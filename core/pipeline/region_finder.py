@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -38,6 +38,7 @@ class FoundRegions:
         node_ids: ids that regions have from the drive, by their value.
         next_number: the first number that no id has used.
         timeline: a picture (`StepPicture` as PNG) of every step along the drive.
+        came_from: ids of the nodes that a region was cut from or joined of along the drive.
     """
 
     regions: IntArray
@@ -47,6 +48,7 @@ class FoundRegions:
     node_ids: Mapping[int, str]
     next_number: int = 1
     timeline: tuple[bytes, ...] = ()
+    came_from: Mapping[int, tuple[str, ...]] = field(default_factory=dict)
 
 
 def given_number(
@@ -113,6 +115,14 @@ def found_so_far(growing: GrowingModel, whole: MapResult | None = None) -> Found
     rooms = regions if by_method else suggested_rooms(grid, regions)
     node_ids = {int(value): f"n{value}" for value in np.unique(regions) if value > 0}
     parameters = asdict(growing.method.config)
+    came_from = {r.number: tuple(f"n{parent}" for parent in r.parents) for r in state.regions}
     return FoundRegions(
-        regions, rooms, state.history, parameters, node_ids, state.next_number, state.pictures
+        regions,
+        rooms,
+        state.history,
+        parameters,
+        node_ids,
+        state.next_number,
+        state.pictures,
+        came_from,
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import replace
 
 import numpy as np
 from scipy import ndimage
@@ -22,6 +23,7 @@ def topology_of(
     labels: Mapping[int, str] | None = None,
     node_ids: Mapping[int, str] | None = None,
     next_number: int = 1,
+    came_from: Mapping[int, tuple[str, ...]] | None = None,
 ) -> TopologicalMap:
     """Nodes, edges and rooms of a grid that is divided into regions.
 
@@ -32,6 +34,7 @@ def topology_of(
         labels: label of each region that has one.
         node_ids: ids of regions that have one already; the others get new ones.
         next_number: the first number that no id has used.
+        came_from: earlier nodes that a region was cut from or joined of.
     """
     labels, ids = labels or {}, dict(node_ids or {})
     number = next_number
@@ -44,7 +47,8 @@ def topology_of(
     for value in values:
         mask = regions == value
         room = int(np.bincount(rooms[mask]).argmax()) if rooms is not None else value
-        nodes.append(measured_node(grid, mask, ids[value], value, labels.get(value), room))
+        node = measured_node(grid, mask, ids[value], value, labels.get(value), room)
+        nodes.append(replace(node, came_from=(came_from or {}).get(value, ())))
     edges = []
     for contact in contacts(regions, grid.geometry):
         edges.append(measured_edge(contact, f"e{number}", ids))

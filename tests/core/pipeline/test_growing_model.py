@@ -90,3 +90,21 @@ def test_a_drive_without_an_echo_has_what_the_robot_covered(square_room: RobotLo
         silent = type(scan)(scan.t, scan.odometry, np.full_like(scan.ranges, np.nan), scan.fresh)
         model.add(silent, square_room.odometry[i])
     assert found_so_far(model).regions.any()
+
+
+def test_a_longer_drive_keeps_the_ids_of_the_regions_that_were_there(drive: RobotLog) -> None:
+    options = ModellingOptions(odometry="raw")
+    first = model_log(drive.slice(0, 2 * SCANS // 3), options)
+    longer = model_log(drive, options, previous=first)
+    now = {node.id: node.region for node in longer.topology.nodes}
+    kept = 0
+    for node in first.topology.nodes:
+        cells = first.grid.geometry.world_of(np.argwhere(first.regions == node.region))
+        row, col = longer.grid.geometry.cell_of(cells).T
+        if node.id in now:
+            kept += 1
+            assert (longer.regions[row, col] == now[node.id]).mean() > 0.3
+        else:
+            assert any(node.id in other.came_from for other in longer.topology.nodes)
+    assert kept >= len(first.topology.nodes) - 1
+    assert len(set(now)) == len(longer.topology.nodes)
