@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from fastapi import APIRouter, FastAPI
 
 from app.api import (
+    comparisons,
     docs_page,
     edits,
     health,
@@ -62,6 +63,7 @@ def create_app(settings: Settings) -> FastAPI:
         logs.router,
         models.router,
         timeline.router,
+        comparisons.router,
         labels.router,
         edits.router,
         localizations.router,

@@ -18,7 +18,7 @@ from app.settings import Settings
 from app.viewer.bridge import bridge
 from app.viewer.hub import Hub, HubConfig
 from app.viewer.mailbox import Mailbox
-from app.viewer.messages import FROM_PAGE
+from app.viewer.messages import FROM_PAGE, Beside
 from app.viewer.open_view import LoadModel
 from app.viewer.page import view_page
 from app.viewer.tab import Tab
@@ -88,7 +88,7 @@ def _add_sockets(router: APIRouter, hub: Hub) -> None:
         mailbox.put(view.hello(chosen))
         if chosen.scene is not None:
             chosen.tell_ready()
-        await _talk(websocket, chosen, mailbox)
+        await _talk(websocket, hub, model_id, chosen, mailbox)
 
     @router.websocket("/{model_id}/tab/{token}")
     async def view_of_tab(websocket: WebSocket, model_id: str, token: Token) -> None:
@@ -114,7 +114,7 @@ async def _view(hub: Hub, websocket: WebSocket, model_id: str, token: str) -> No
     await bridge(websocket, view.server.url_for(token))
 
 
-async def _talk(websocket: WebSocket, tab: Tab, mailbox: Mailbox) -> None:
+async def _talk(websocket: WebSocket, hub: Hub, model_id: str, tab: Tab, mailbox: Mailbox) -> None:
     """Serves one event socket until either side ends it."""
     sending = asyncio.create_task(_send(websocket, mailbox))
     try:
@@ -122,7 +122,11 @@ async def _talk(websocket: WebSocket, tab: Tab, mailbox: Mailbox) -> None:
             text = await websocket.receive_text()
             if len(text) > LARGEST_MESSAGE:
                 raise ValueError("message too big")
-            tab.handle(FROM_PAGE.validate_json(text))
+            message = FROM_PAGE.validate_json(text)
+            if isinstance(message, Beside):
+                await hub.put_beside(model_id, message.model, tab.token)
+            else:
+                tab.handle(message)
     except (WebSocketDisconnect, RuntimeError):
         pass
     except (ValidationError, ValueError, KeyError):

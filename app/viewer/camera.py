@@ -8,6 +8,9 @@ import numpy as np
 
 from core.geometry import FloatArray
 
+_SAME_PLACE = 0.01
+"""Share of the distance that two cameras may be apart and still look the same."""
+
 
 @dataclass(frozen=True)
 class CameraConfig:
@@ -136,3 +139,12 @@ def _lerp(
 def _triple(values: FloatArray) -> tuple[float, float, float]:
     x, y, z = np.asarray(values, float).tolist()
     return (x, y, z)
+
+
+def near(a: View, b: View) -> bool:
+    """Whether two cameras are the same for the eye."""
+    distance = float(np.linalg.norm(np.subtract(b.position, b.look_at)))
+    off = np.linalg.norm(np.subtract(a.position, b.position)) + np.linalg.norm(
+        np.subtract(a.look_at, b.look_at)
+    )
+    return bool(off < _SAME_PLACE * distance)

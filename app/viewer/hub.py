@@ -63,6 +63,13 @@ class Hub:
             return None
         return task.result()
 
+    async def put_beside(self, model_id: str, other_id: str | None, token: str) -> None:
+        """In a tab that shows two models, moving the camera of one moves the other's (None: no more)."""
+        own = self._tab(model_id, token)
+        view = None if other_id is None else await self.view(other_id)
+        if own is not None:
+            own.camera_link.join(None if view is None else view.tab(token).camera_link)
+
     def set_probabilities(self, model_id: str, token: str, shares: Mapping[str, float]) -> None:
         """Shows node probabilities (0..1 by node id) as bars in one tab; empty: none."""
         tab = self._tab(model_id, token)

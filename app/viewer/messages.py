@@ -89,8 +89,15 @@ class Moment(_Message):
     """Which tentative part of that step is looked at."""
 
 
+class Beside(_Message):
+    """Page -> view: another model is shown beside this one, with the same camera (null: none)."""
+
+    type: Literal["beside"]
+    model: str | None = Field(max_length=200)
+
+
 FromPage = Annotated[
-    Select | Layers | Camera | Measure | Theme | Viewport | Playback | Moment,
+    Select | Layers | Camera | Measure | Theme | Viewport | Playback | Moment | Beside,
     Field(discriminator="type"),
 ]
 FROM_PAGE: TypeAdapter[FromPage] = TypeAdapter(FromPage)

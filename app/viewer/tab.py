@@ -10,7 +10,8 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import viser
 
-from app.viewer.camera import View, blend, farthest, fit_3d, fit_top
+from app.viewer.camera import View, blend, farthest, fit_3d, fit_top, near
+from app.viewer.camera_link import CameraLink
 from app.viewer.drawing import Drawing, NodeMark
 from app.viewer.layers import DEFAULT_LAYERS
 from app.viewer.mailbox import Mailbox
@@ -40,7 +41,6 @@ _SETTLE_AFTER = 0.12
 _SAME_ASPECT = 0.01
 _TRAVEL_TIME, _TRAVEL_STEPS = 0.35, 12
 """Seconds and pictures of a camera's way from one standard view to another."""
-_SAME_PLACE = 0.01
 _DEFAULT_HEIGHT = 800.0
 
 
@@ -78,6 +78,7 @@ class Tab:
         self.last_used = time.monotonic()
         self.playback = PlaybackState()
         self.moment = MomentPlayback()
+        self.camera_link = CameraLink(self._stand_as)
         self._fitted: Fitted | None = None
         self._aim: Fitted | None = None
         self._travel: asyncio.Task[None] | None = None
@@ -183,6 +184,8 @@ class Tab:
 
     def camera_moved(self) -> None:
         """The camera or the picture has changed: labels are laid out again, not too often."""
+        if self.scene is not None:
+            self.camera_link.moved(camera_view(self.scene.client))
         if self._settle_due is None and self.scene is not None:
             loop = asyncio.get_running_loop()
             self._settle_due = loop.call_later(_SETTLE_AFTER, self._settle)
@@ -279,9 +282,9 @@ class Tab:
         if self.scene is None:
             return
         view = camera_view(self.scene.client)
-        if self._fitted is not None and not _near(view, self._fitted.view):
+        if self._fitted is not None and not near(view, self._fitted.view):
             self._fitted = None
-        elif self._fitted is None and self._aim is not None and _near(view, self._aim.view):
+        elif self._fitted is None and self._aim is not None and near(view, self._aim.view):
             # A slow browser told where it was before it went there.
             self._fitted = self._aim
         if self._fitted is not None:
@@ -291,6 +294,14 @@ class Tab:
                 view = self._fitted.view
         self.state.camera = None if self._fitted is not None else view
         self.scene.declutter(view, self.state.picture_height, self.state.selected)
+
+    def _stand_as(self, view: View) -> None:
+        """Stands where the camera of the model beside this one stands."""
+        if self.scene is not None:
+            self._stop_moving()
+            self._fitted = self._aim = None
+            self.scene.stand_at(view, farthest(view, self.scene.drawing.outline))
+            self.camera_moved()
 
     def _stop_moving(self) -> None:
         if self._travel is not None:
@@ -306,15 +317,6 @@ def _same_places(old: Sequence[NodeMark], new: Sequence[NodeMark]) -> bool:
     return [replace(node, label=None) for node in old] == [
         replace(node, label=None) for node in new
     ]
-
-
-def _near(a: View, b: View) -> bool:
-    """Whether two cameras are the same for the eye."""
-    distance = float(np.linalg.norm(np.subtract(b.position, b.look_at)))
-    off = np.linalg.norm(np.subtract(a.position, b.position)) + np.linalg.norm(
-        np.subtract(a.look_at, b.look_at)
-    )
-    return bool(off < _SAME_PLACE * distance)
 
 
 def camera_view(client: viser.ClientHandle) -> View:

@@ -55,6 +55,7 @@ export const api = {
   renameModel: (model, name) => request("PATCH", `api/models/${id(model)}`, { name }),
   deleteModel: (model) => request("DELETE", `api/models/${id(model)}`),
   labelNode: (model, node, label) => request("PATCH", `api/models/${id(model)}/nodes/${id(node)}`, { label }),
+  comparison: (model, other) => request("GET", `api/models/${id(model)}/comparison/${id(other)}`),
   timeline: (model) => request("GET", `api/models/${id(model)}/timeline`),
   edit: (model, change) => request("POST", `api/models/${id(model)}/edits`, change),
   undo: (model, revision) => request("POST", `api/models/${id(model)}/undo`, { revision: revision ?? null }),

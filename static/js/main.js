@@ -14,6 +14,7 @@ import { stage } from "./panels/stage.js";
 import { screenshot, topbar } from "./panels/topbar.js";
 import { go, link, startRouter } from "./router.js";
 import { helpDialog, shortcut, startShortcuts } from "./shortcuts.js";
+import { startSecondView } from "./second_view.js";
 import { get } from "./store.js";
 import { toggleTheme } from "./theme.js";
 import { toast } from "./toasts.js";
@@ -32,6 +33,7 @@ details(byId("details"));
 playerControls(byId("player"));
 startLocalizationPlayer();
 startGrowthPlayer();
+startSecondView();
 
 onView({
   onLabels: takeLabels,

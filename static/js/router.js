@@ -1,11 +1,11 @@
 // Addresses that can be sent to somebody: #/models/ID, #/models/ID/localizations/LID, #/models/ID/growth,
-// #/logs/ID, #/.
+// #/models/ID/compare/OTHER, #/logs/ID, #/.
 import { set } from "./store.js";
 
 export function parse(hash) {
   const [, log] = hash.match(/^#\/logs\/([^/]+)$/) ?? [];
-  const [, model, more, localization] = hash.match(/^#\/models\/([^/]+)(\/localizations\/([^/]+)|\/growth)?$/) ?? [];
-  const home = { page: "home", id: null, localization: null, growth: false };
+  const [, model, more, localization, other] = hash.match(/^#\/models\/([^/]+)(\/localizations\/([^/]+)|\/compare\/([^/]+)|\/growth)?$/) ?? [];
+  const home = { page: "home", id: null, localization: null, growth: false, compare: null };
   try {
     if (log) return { ...home, page: "log", id: decodeURIComponent(log) };
     if (!model) return home;
@@ -14,6 +14,7 @@ export function parse(hash) {
       id: decodeURIComponent(model),
       localization: localization ? decodeURIComponent(localization) : null,
       growth: more === "/growth",
+      compare: other ? decodeURIComponent(other) : null,
     };
   } catch {
     return home;
@@ -23,6 +24,7 @@ export function parse(hash) {
 export const link = {
   home: () => "#/",
   model: (id) => `#/models/${encodeURIComponent(id)}`,
+  compare: (model, other) => `${link.model(model)}/compare/${encodeURIComponent(other)}`,
   growth: (model) => `${link.model(model)}/growth`,
   localization: (model, id) => `${link.model(model)}/localizations/${encodeURIComponent(id)}`,
   log: (id) => `#/logs/${encodeURIComponent(id)}`,

@@ -3,7 +3,7 @@
 const state = {
   logs: null, // summaries, null until loaded
   models: null,
-  route: { page: "home", id: null, localization: null, growth: false },
+  route: { page: "home", id: null, localization: null, growth: false, compare: null },
   log: null, // detail of the log that is shown
   model: null, // detail of the model that is shown
   job: null, // the job that makes the shown model
@@ -20,6 +20,8 @@ const state = {
   cutting: null, // id of the node that is being split
   layers: {}, // name -> shown, as the 3D view says
   colours: {}, // node id -> #rrggbb
+  otherColours: {}, // the same of the model beside it
+  comparison: null, // with the model beside it, which is its `other`
   view: "3d",
   connection: "none", // none | connecting | ready | lost
   measuring: false,

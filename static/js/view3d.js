@@ -9,16 +9,22 @@ const TAB_KEY = "echorooms.tab";
 const RETRY_MS = [500, 1000, 2000, 4000, 8000];
 const NO_SUCH_MODEL = 4404;
 /** `?fixedDpr=0.5` in the page's address makes the 3D view coarser, for slow machines. */
-const SHARPNESS = /^\?fixedDpr=[\d.]+$/.test(location.search) ? location.search : "";
+export const SHARPNESS = /^\?fixedDpr=[\d.]+$/.test(location.search) ? location.search : "";
 
 let current = null; // {model, socket, frame, tries, timer}
 let belief = null; // what is played
 let moment = null; // {step, decision} of the drive that is shown instead of the finished model
 const handlers = {};
+const connected = new Set();
 
 /** Hears what the view says: onLabels, onSelected, onChanged, onDeleted. */
 export function onView(events) {
   Object.assign(handlers, events);
+}
+
+/** Calls back whenever the channel to the view is there (again). */
+export function onConnected(callback) {
+  connected.add(callback);
 }
 
 /** Shows a model in `frameBox`; the same model again changes nothing. */
@@ -60,7 +66,8 @@ export function focusView() {
   current?.frame.focus();
 }
 
-function tell(message) {
+/** Sends a message to the view of the open model. */
+export function tell(message) {
   if (current?.socket?.readyState === WebSocket.OPEN) current.socket.send(JSON.stringify(message));
 }
 
@@ -111,6 +118,7 @@ function connect(view) {
     tell({ type: "playback", belief });
     if (moment) tell({ type: "moment", ...moment });
     sendHeight();
+    for (const callback of connected) callback();
   };
   socket.onmessage = (event) => {
     if (view === current) hear(JSON.parse(event.data));
@@ -182,7 +190,7 @@ function sendHeight() {
 }
 
 /** One token per tab; a copied tab gets its own, since session storage is copied with it. */
-function tabToken() {
+export function tabToken() {
   if (!tabToken.value) {
     const navigation = performance.getEntriesByType("navigation")[0]?.type;
     let kept = null;

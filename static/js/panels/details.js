@@ -1,6 +1,7 @@
 // The right column: the rooms of a model, or the form that makes one from a log.
 import { h, replace } from "../dom.js";
 import { get, watch } from "../store.js";
+import { comparePanel } from "./compare_panel.js";
 import { convexityChart } from "./convexity_chart.js";
 import { editHistory } from "./edit_history.js";
 import { growthPanel } from "./growth_panel.js";
@@ -22,7 +23,8 @@ export function details(root) {
   const played = h("div", { class: "stack localization" });
   const grew = h("div", { class: "stack growth" });
   const form = h("div", { class: "stack" });
-  replace(root, rooms, played, grew, form);
+  const compared = h("div", { class: "stack" });
+  replace(root, rooms, played, grew, compared, form);
   nodeTable(table);
   table.querySelector("h2").append(history);
   editHistory(history);
@@ -32,12 +34,14 @@ export function details(root) {
   localizationList(localizations);
   localizationPanel(played);
   growthPanel(grew);
+  comparePanel(compared);
   watch(["route", "log", "model"], () => {
     const { log, model, route } = get();
     const showsRooms = route.page === "model" && model?.status === "done";
     const showsForm = route.page === "log" && log !== null;
-    rooms.hidden = !showsRooms || route.localization !== null || route.growth;
+    rooms.hidden = !showsRooms || route.localization !== null || route.growth || route.compare !== null;
     grew.hidden = !showsRooms || !route.growth;
+    compared.hidden = !showsRooms || route.compare === null;
     played.hidden = !showsRooms || route.localization === null;
     form.hidden = !showsForm;
     root.hidden = !showsRooms && !showsForm;

@@ -3,13 +3,13 @@ import { h, icon, replace } from "../dom.js";
 import { files } from "../api.js";
 import { addLog } from "../actions.js";
 import { bytes, count, when } from "../format.js";
-import { link } from "../router.js";
+import { go, link } from "../router.js";
 import { watch } from "../store.js";
 
 const WORDS = { mode: "Regions", regions: "Number asked", method: "Method", mapping: "Map", odometry: "Odometry", resolution: "Resolution" };
 
 export function modelFacts(root) {
-  watch(["model", "logs"], ({ model, logs }) => {
+  watch(["model", "models", "logs"], ({ model, models, logs }) => {
     if (!model || model.status !== "done") {
       replace(root);
       return;
@@ -17,6 +17,7 @@ export function modelFacts(root) {
     const options = Object.entries(WORDS).filter(([key]) => model.options[key] !== undefined && model.options[key] !== null);
     replace(root, model.log_ids.length > 0 && model.options.regions == null && model.options.mode !== "offline" && h("p", { class: "grew" },
       h("a", { class: "button", href: link.growth(model.id) }, icon("play"), "How it grew along the drive")),
+    beside(model, models ?? []),
     h("details", { class: "advanced" }, h("summary", {}, "About this model"), h("dl", { class: "facts" },
       fact("Floor", `${model.area_m2.toFixed(0)} m², ${count(model.node_count, "region")}, ${count(model.room_count, "room")}`),
       fact("Made", when(model.created)),
@@ -28,6 +29,17 @@ export function modelFacts(root) {
     model.log_ids.length > 0 && goOn(model, logs ?? []),
     ));
   });
+}
+
+/** The way to a second model; those of the same log come first. */
+function beside(model, models) {
+  const own = new Set(model.log_ids);
+  const shared = (item) => (item.log_ids ?? []).some((id) => own.has(id));
+  const others = models.filter((item) => item.id !== model.id && item.status === "done").sort((a, b) => shared(b) - shared(a));
+  if (!others.length) return null;
+  const choice = h("select", { "aria-label": "Compare with", onchange: () => choice.value && go(link.compare(model.id, choice.value)) },
+    h("option", { value: "" }, "Compare with…"), others.map((item) => h("option", { value: item.id }, item.name)));
+  return h("p", { class: "grew" }, choice);
 }
 
 /** Another log of the same drive makes the map larger. */

@@ -1,6 +1,7 @@
 // The middle: a welcome, a log's report, a job's progress, or the 3D view.
 import { h, replace } from "../dom.js";
 import { get, watch } from "../store.js";
+import { closeBeside, openBeside } from "../second_view.js";
 import { closeView, openView } from "../view3d.js";
 import { cutStrip } from "./edit_cut.js";
 import { failedCard, jobCard } from "./job_card.js";
@@ -10,7 +11,8 @@ import { welcome } from "./welcome.js";
 
 export function stage(root) {
   const page = h("div", { class: "page" });
-  const view = h("div", { class: "view" });
+  const beside = h("div", { class: "beside" });
+  const view = h("div", { class: "view" }, beside);
   replace(root, page, view);
   viewOverlay(view);
   cutStrip(view);
@@ -19,11 +21,16 @@ export function stage(root) {
     const shows3d = content === "3d";
     page.hidden = shows3d;
     view.hidden = !shows3d;
-    if (shows3d) openView(get().model.id, view);
+    const { model, models, route } = get();
+    const other = shows3d && models?.some((item) => item.id === route.compare) ? route.compare : null;
+    view.classList.toggle("two", other !== null);
+    if (shows3d) openView(model.id, view);
     else {
       closeView();
       show(page, content);
     }
+    if (other) openBeside(other, beside);
+    else closeBeside();
   });
 }
 
