@@ -169,6 +169,8 @@ def print_tables(found: list[Found], methods: list[str]) -> None:
     """The tables of all methods; the reliability diagram of the first one."""
     for name in methods:
         own = [f for f in found if f.method == name]
+        if not own:
+            continue
         for kind in dict.fromkeys(f.kind for f in own):
             print(row(name, kind, [f for f in own if f.kind == kind]))
         ordinary = [f for f in own if f.kind != "mirrored"]
@@ -176,9 +178,9 @@ def print_tables(found: list[Found], methods: list[str]) -> None:
             print(row(name, "all ordinary", ordinary))
         carried = [f for f in own if f.carried]
         metres = np.sort([converged_after(f.steps, *f.carried) for f in carried if f.carried])
-        print(f"{name}: right again after {metres.round(1).tolist()} m")
         after = [s for f in carried if f.carried for s in f.steps if s.t >= f.carried[0]]
         if after:
+            print(f"{name}: right again after {metres.round(1).tolist()} m")
             false = np.mean([s.probability > SURE and not s.right for s in after])
             right = np.mean([s.right for s in after])
             print(f"{name}: after the kidnap right {right:.3f}, certain and wrong {false:.3f}")
@@ -194,7 +196,8 @@ def row(name: str, kind: str, found: list[Found]) -> str:
     soon = np.mean([converged_after(drive) <= CONVERGED_M for drive in drives])
     worst = min((summary([drive]).accuracy for drive in drives), default=np.nan)
     return (
-        f"{name:10s} {kind:13s} n {len(drives):3d}  all {score.accuracy:.3f} (worst {worst:.2f})  "
+        f"{name:10s} {kind:13s} n {len(drives):3d} steps {score.steps:4d}  "
+        f"all {score.accuracy:.3f} (worst {worst:.2f})  "
         f"late {score.late:.3f}  <= {CONVERGED_M} m {soon:.2f}  false {score.false_certain:.3f}  "
         f"ECE {score.calibration_error:.3f}  error {score.position_error:.2f} m"
     )

@@ -31,6 +31,36 @@ def flat() -> Model:
     return Model(grid, regions, regions, topology, None, {})
 
 
+def hall_with_bulge(bulge: float) -> Model:
+    """An empty room of 6 m x 3 m that looks the same after half a turn, its halves two nodes; in
+    the map its west wall bulges by some metres, over one metre, as a sonar map's walls do."""
+    geometry = GridGeometry(RESOLUTION, (-0.5, -0.5, 0.0), (80, 140))
+    rows, cols = np.mgrid[:80, :140]
+    xy = geometry.world_of(np.stack((rows, cols), -1))
+    x, y = xy[..., 0], xy[..., 1]
+    free = (x > 0) & (x < 6) & (y > 0) & (y < 3) & ~((x < bulge) & (y > 1.5) & (y < 2.5))
+    near = (x > -0.1) & (x < 6.1) & (y > -0.1) & (y < 3.1)
+    grid = OccupancyGrid.of(geometry, free, near & ~free)
+    regions = np.where(free, np.where(x < 3, 1, 2), 0).astype(np.int64)
+    topology = topology_of(grid, regions, labels={1: "west", 2: "east"})
+    return Model(grid, regions, regions, topology, None, {})
+
+
+@pytest.fixture(scope="session")
+def hall() -> Model:
+    return hall_with_bulge(0.0)
+
+
+@pytest.fixture(scope="session")
+def hall_with_a_flaw() -> Model:
+    return hall_with_bulge(0.15)
+
+
+@pytest.fixture(scope="session")
+def hall_with_a_cupboard() -> Model:
+    return hall_with_bulge(0.6)
+
+
 @pytest.fixture(scope="session")
 def two_rooms() -> Model:
     return flat()

@@ -104,6 +104,27 @@ def test_names_are_used_in_the_reason(two_rooms: Model, log: RobotLog) -> None:
     assert "kitchen" in localized(two_rooms, log)[-1].why
 
 
+HALL_ROUND = ((0.85, 0.75), (5.15, 0.75), (5.15, 2.25), (0.85, 2.25)) * 3
+
+
+def test_halves_that_look_the_same_are_told_apart_by_no_flaw_of_the_map(
+    hall: Model, hall_with_a_flaw: Model
+) -> None:
+    steps = localized(hall_with_a_flaw, drive(hall, path_through(HALL_ROUND)))
+    assert len(steps) >= 12
+    assert max(max(step.probabilities.values()) for step in steps) < 0.7
+    assert all("looks the same as" in step.why for step in steps[:4])
+
+
+def test_halves_of_which_one_has_a_cupboard_are_told_apart(hall_with_a_cupboard: Model) -> None:
+    log = drive(hall_with_a_cupboard, path_through(HALL_ROUND))
+    steps = localized(hall_with_a_cupboard, log)
+    assert log.truth is not None
+    end, true = steps[-1].pose, log.truth[int(np.searchsorted(log.t, steps[-1].t))]
+    assert max(steps[-1].probabilities.values()) > 0.9
+    assert np.hypot(*(end[:2] - true[:2])) < 0.3
+
+
 def test_noise_without_any_home_in_it_is_unknown(two_rooms: Model, log: RobotLog) -> None:
     readings = np.random.default_rng(5).uniform(0.3, 4.0, log.ranges.shape)
     steps = localized(two_rooms, replace(log, ranges=readings))
