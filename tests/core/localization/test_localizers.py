@@ -8,6 +8,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from core.errors import InputError, ModelError
 from core.evaluation.localization import outcomes, summary
@@ -163,6 +165,23 @@ def test_readings_that_say_nothing_do_no_harm(
     for step in localized(two_rooms, replace(log, ranges=np.full(log.ranges.shape, value))):
         assert np.isfinite(list(step.probabilities.values())).all()
         assert sum(step.probabilities.values()) + step.unknown == pytest.approx(1.0, abs=1e-4)
+
+
+@settings(max_examples=6, deadline=None)
+@given(st.integers(0, 10_000), st.sampled_from([0.0, 1.0, 100.0]))
+def test_probabilities_are_finite_and_sum_to_one_whatever_comes_in(
+    two_rooms: Model, log: RobotLog, seed: int, leap: float
+) -> None:
+    rng = np.random.default_rng(seed)
+    odd = rng.choice([np.nan, 0.0, 0.02, 1.0, 3.99, 50.0, 1e6], log.ranges.shape)
+    leaps = np.cumsum(rng.normal(0, leap, log.odometry.shape), axis=0)
+    hostile = replace(log, ranges=odd, odometry=log.odometry + leaps)
+    for step in localized(two_rooms, hostile.slice(0, 40)):
+        told = np.array([*step.probabilities.values(), step.unknown])
+        assert np.isfinite(told).all()
+        assert (told >= 0).all()
+        assert told.sum() == pytest.approx(1.0, abs=1e-4)
+        assert np.isfinite(step.pose).all()
 
 
 def test_latched_readings_are_not_read(two_rooms: Model, log: RobotLog) -> None:
