@@ -23,13 +23,13 @@ import numpy as np
 from scipy import ndimage
 
 from core.geometry import BoolArray, FloatArray, IntArray
-from core.mapping import GridGeometry, OccupancyGrid
+from core.mapping import OccupancyGrid
 from core.segmentation.convex_division import DivisionConfig, divided
 from core.segmentation.convexity import ConvexityConfig, convexity
 from core.segmentation.decision import Decision, measure_cut
 from core.segmentation.extraction_state import ExtractionState, painted
 from core.segmentation.hidden_pairs import hidden_pairs
-from core.segmentation.inheritance import with_region
+from core.segmentation.inheritance import reopened, with_region
 from core.segmentation.latest_regions import revised
 from core.segmentation.moment import Moment
 
@@ -64,7 +64,7 @@ def extract(
     robot = _nearest_free(grid, geometry.cell_of(moment.pose[:2]))
     if robot is None:
         return _recorded(state, moment, None, [], config, "nothing is free yet")
-    state, said = _reopened(state, geometry, robot)
+    state, said = reopened(state, geometry, robot)
     left = _remaining(state, grid, robot)
     if not left.any():
         return _recorded(state, moment, None, [], config, "no space is left around the robot")
@@ -161,21 +161,9 @@ def _nearest_free(grid: OccupancyGrid, cell: IntArray) -> IntArray | None:
     return np.asarray(free[((free - cell) ** 2).sum(axis=1).argmin()])
 
 
-def _reopened(
-    state: ExtractionState, geometry: GridGeometry, robot: IntArray
-) -> tuple[ExtractionState, str]:
-    """The state with the region that the robot is back in open again, and that in words."""
-    here = int(painted(state.regions, geometry)[tuple(robot)])
-    if not any(r.number == here and not r.is_open for r in state.regions):
-        return state, ""
-    regions = tuple(replace(r, is_open=True) if r.number == here else r for r in state.regions)
-    return replace(state, regions=regions), f"the robot is back in region {here}; "
-
-
 def _remaining(state: ExtractionState, grid: OccupancyGrid, robot: IntArray | None) -> BoolArray:
     """Free space that no closed region holds; only the part around the robot when that is given."""
-    closed = tuple(region for region in state.regions if not region.is_open)
-    left = grid.free & (painted(closed, grid.geometry) == 0)
+    left = grid.free & (painted(state.closed, grid.geometry) == 0)
     if robot is None:
         return np.asarray(left)
     pieces, _ = ndimage.label(left)

@@ -49,6 +49,11 @@ class ExtractionState:
     history: tuple[Mapping[str, Any], ...] = ()
     pictures: tuple[bytes, ...] = ()
 
+    @property
+    def closed(self) -> tuple[ExtractedRegion, ...]:
+        """The regions that are left alone."""
+        return tuple(region for region in self.regions if not region.is_open)
+
     def recorded(
         self,
         moment: Moment,

@@ -1,4 +1,4 @@
-"""Which number a part that becomes a region gets: that of the region it was, or a new one."""
+"""Regions that open again when the robot is back, and who inherits their numbers."""
 
 from __future__ import annotations
 
@@ -17,6 +17,17 @@ from core.segmentation.extraction_state import (
 
 LEAST_OVERLAP = 0.5
 """Share of an open region that a part must cover to be its heir: only one part can."""
+
+
+def reopened(
+    state: ExtractionState, geometry: GridGeometry, robot: IntArray
+) -> tuple[ExtractionState, str]:
+    """The state with the region that the robot is back in open again, and that in words."""
+    here = int(painted(state.regions, geometry)[tuple(robot)])
+    if not any(r.number == here and not r.is_open for r in state.regions):
+        return state, ""
+    regions = tuple(replace(r, is_open=True) if r.number == here else r for r in state.regions)
+    return replace(state, regions=regions), f"the robot is back in region {here}; "
 
 
 def with_region(

@@ -8,17 +8,15 @@ import numpy as np
 from scipy import ndimage
 
 from core.geometry import BoolArray, IntArray
-from core.mapping import OccupancyGrid
 from core.segmentation.convex_split import two_way_cut
 from core.segmentation.convexity import ConvexityConfig, convexity, is_to_be_cut
 from core.segmentation.decision import Decision, measure_cut
 from core.segmentation.extraction_state import (
-    ExtractedRegion,
     ExtractionState,
-    lattice_corner,
     painted,
 )
 from core.segmentation.hidden_pairs import hidden_pairs
+from core.segmentation.inheritance import reopened, with_region
 from core.segmentation.moment import Moment
 from core.segmentation.reliable_region import ReliableConfig, reliable_region
 
@@ -59,26 +57,26 @@ def extract_as_in_paper(
     robot = grid.geometry.cell_of(moment.pose[:2])
     if not grid.geometry.contains(robot) or not grid.free[tuple(robot)]:
         return _recorded(state, moment, (), [], config, "the robot is not on free grids")
-    state = _without_region_of(state, grid, robot)
-    taken = painted(state.regions, grid.geometry) > 0
+    state, said = reopened(state, grid.geometry, robot)
+    taken = painted(state.closed, grid.geometry) > 0
     reliable = reliable_region(grid, moment.confidence, robot, config.reliable) & ~taken
     pieces, _ = ndimage.label(reliable)
     cells = (pieces == pieces[tuple(robot)]) & reliable
     least = config.least_area / grid.geometry.cell_area
     cut = two_way_cut(cells, least, config.max_cell) if cells.sum() >= 2 * least else None
     if cut is None:
-        said = "the reliable cells around the robot are too few to be cut"
+        said += "the reliable cells around the robot are too few to be cut"
         return _recorded(state, moment, (cells,), [], config, said)
     near, far = _by_distance((cut.first, cut.second), robot)
     one = convexity((cells,), grid, config.convexity)  # eq. (7)
     measures = measure_cut(far, cells, one, grid, config.convexity)  # eq. (8)
     accepted = is_to_be_cut(one, measures.c2, config.convexity)  # eq. (9)
     why = _reason(one, measures.c2, config.convexity)
-    number = state.next_number if accepted else None
-    decision = Decision(2, measures, hidden_pairs(far, ~grid.free), accepted, why, number)
+    decision = Decision(2, measures, hidden_pairs(far, ~grid.free), accepted, why)
     if accepted:
-        state = _with_region(state, far, grid)
-    return _recorded(state, moment, (near, far), [decision], config, why)
+        state, region = with_region(state, far, grid.geometry)
+        decision = replace(decision, region=region.number, came_from=region.parents)
+    return _recorded(state, moment, (near, far), [decision], config, said + why)
 
 
 def finish_as_in_paper(
@@ -86,7 +84,7 @@ def finish_as_in_paper(
 ) -> ExtractionState:
     """The end of a drive: every piece of floor that is left becomes a region."""
     config, grid = config or PaperConfig(), moment.grid
-    left = grid.free & (painted(state.regions, grid.geometry) == 0)
+    left = grid.free & (painted(state.closed, grid.geometry) == 0)
     one = convexity((left,), grid, config.convexity) if left.any() else 0.0
     labels, count = ndimage.label(left)
     pieces, decisions = [labels == value for value in range(1, count + 1)], []
@@ -95,10 +93,12 @@ def finish_as_in_paper(
             continue
         measures = measure_cut(piece, left, one, grid, config.convexity)
         hidden = hidden_pairs(piece, ~grid.free)
+        state, region = with_region(state, piece, grid.geometry, is_open=True)
         decisions.append(
-            Decision(i + 1, measures, hidden, True, "end of the drive", state.next_number)
+            Decision(
+                i + 1, measures, hidden, True, "end of the drive", region.number, region.parents
+            )
         )
-        state = _with_region(state, piece, grid)
     said = f"end of the drive: {len(decisions)} pieces were left"
     return _recorded(state, moment, tuple(pieces), decisions, config, said)
 
@@ -109,12 +109,6 @@ def _by_distance(
     """The half whose centre is nearer to the robot, then the other one."""
     away = [np.hypot(*(np.argwhere(half).mean(axis=0) - robot)) for half in halves]
     return halves if away[0] <= away[1] else (halves[1], halves[0])
-
-
-def _with_region(state: ExtractionState, mask: BoolArray, grid: OccupancyGrid) -> ExtractionState:
-    cells = np.argwhere(mask) + lattice_corner(grid.geometry)
-    new = ExtractedRegion(state.next_number, cells)
-    return replace(state, regions=(*state.regions, new), next_number=state.next_number + 1)
 
 
 def _reason(one: float, two: float, config: ConvexityConfig) -> str:
@@ -141,11 +135,3 @@ def _recorded(
         clusters[part] = i + 1
     thresholds = {"c1": config.convexity.threshold, "c2_per_c1": config.convexity.factor}
     return state.recorded(moment, clusters, decisions, thresholds, said)
-
-
-def _without_region_of(
-    state: ExtractionState, grid: OccupancyGrid, robot: IntArray
-) -> ExtractionState:
-    """The state without the region that the robot is back in: its cells are considered again."""
-    here = int(painted(state.regions, grid.geometry)[tuple(robot)])
-    return replace(state, regions=tuple(r for r in state.regions if r.number != here))
