@@ -75,7 +75,7 @@ def row(name: str, model: Model, log: RobotLog) -> str:
 def main() -> None:
     log = simulate("paper", seed=3, tour="localization")
     paper = model_log(simulate("paper", seed=3).without_truth())
-    row("warm-up", paper, log.slice(0, 60))
+    row("warm-up", paper, log)
     print(row("paper", paper, log), flush=True)
     for columns, rows in TILES:
         model = flat(columns, rows, np.random.default_rng(0))
