@@ -32,6 +32,12 @@ ResolutionOption = Annotated[float, typer.Option(help="Metres per cell.")]
 OdometryOption = Annotated[
     Odometry, typer.Option(help="Odometry as it is, or with its drift corrected.")
 ]
+CalibrationOption = Annotated[
+    Path | None,
+    typer.Option(
+        help="JSON file with what is known of the robot's odometry: used when it exists, then written."
+    ),
+]
 
 
 def map_log(
@@ -41,8 +47,10 @@ def map_log(
     resolution: ResolutionOption = 0.05,
     odometry: OdometryOption = Odometry.corrected,
     ring: RingOption = None,
+    calibration: CalibrationOption = None,
 ) -> None:
     """Make an occupancy grid: map.yaml, map.pgm, trajectory.csv."""
+    from app.commands.calibration import keep_calibration, known_calibration
     from app.commands.inputs import load_log
     from app.commands.output_folder import complete_folder
     from app.commands.terminal import progress_bar
@@ -55,9 +63,11 @@ def map_log(
     options = MappingOptions(method.value, resolution)
     with progress_bar() as progress, complete_folder(out) as folder:
         read = load_log(log, ring, part_of(progress, 0.0, 0.05))
-        drive = corrected_drive(read, odometry.value, part_of(progress, 0.05, 0.7))
+        known = known_calibration(calibration, read.ring)
+        drive = corrected_drive(read, odometry.value, part_of(progress, 0.05, 0.7), known=known)
         result = make_map(drive.log, drive.trajectory, options, part_of(progress, 0.7, 1.0))
         write_map(result.grid, folder)
         drive.whole.trajectory.write_csv(folder / "trajectory.csv")
+    keep_calibration(calibration, drive.whole.calibration, read.ring)
     for sentence in drive.whole.sentences:
         typer.echo(sentence)

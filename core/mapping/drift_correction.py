@@ -18,6 +18,7 @@ import numpy as np
 
 from core.geometry import FloatArray, IntArray
 from core.mapping.drift_config import DriftConfig
+from core.mapping.drift_edits import DriftEdits, SaidLinks
 from core.mapping.graph_terms import Link
 from core.mapping.loop_closure import Closure, close_loops
 from core.mapping.node_view import local_map, walls_at
@@ -50,7 +51,10 @@ class DriftResult:
 
 
 def correct_drift(
-    log: RobotLog, config: DriftConfig | None = None, progress: Progress = no_progress
+    log: RobotLog,
+    config: DriftConfig | None = None,
+    progress: Progress = no_progress,
+    edits: DriftEdits | None = None,
 ) -> DriftResult:
     """The corrected trajectory of a drive whose odometry does not break off.
 
@@ -58,12 +62,16 @@ def correct_drift(
         log: the drive; at least two scans. See `odometry_breaks` for jumps and carried robots.
         config: parameters.
         progress: told after each node.
+        edits: what a person says about it.
+
+    Raises:
+        InputError: the edits speak of another drive, or of its start.
     """
-    config = config or DriftConfig()
+    config, edits = config or DriftConfig(), edits or DriftEdits()
     length = path_length(log.odometry, config.reflection.metres_per_radian)
     nodes = _nodes(length, config.spacing)
     graph = PoseGraph(log.odometry, nodes, config.noise, config.graph)
-    closures = _follow(graph, log, length, config, progress)
+    closures = _follow(graph, log, length, config, progress, edits)
     graph.solve()
     calibration = OdometryCalibration.of(graph.error, graph.error_sigma())
     coarse = through_nodes(log.odometry, length, nodes, graph.poses)
@@ -83,9 +91,15 @@ def _nodes(length: FloatArray, spacing: float) -> IntArray:
 
 
 def _follow(
-    graph: PoseGraph, log: RobotLog, length: FloatArray, config: DriftConfig, progress: Progress
+    graph: PoseGraph,
+    log: RobotLog,
+    length: FloatArray,
+    config: DriftConfig,
+    progress: Progress,
+    edits: DriftEdits,
 ) -> list[Closure]:
     """Adds node after node, each with its closures and wall direction."""
+    said = SaidLinks(edits, log.t, graph.nodes, log.odometry)
     points = reflection_points(log, log.odometry, config.reflection)
     submaps: dict[int, Submap] = {}
     closures: list[Closure] = []
@@ -96,10 +110,14 @@ def _follow(
         graph.solve(2)
         local = without_systematic_error(log.odometry, graph.error)
         submaps[node] = local_map(graph, points, local, length, node, config)
-        others = [other for other in submaps if node - other >= config.apart]
-        found = close_loops(graph, submaps, node, others, log.t, config.closure, config.matching)
-        closures += found
-        if any(closure.accepted for closure in found):
+        links = len(graph.links)
+        closures += said.link(graph, submaps, node, config.matching)
+        told = said.others(node)
+        others = [o for o in submaps if node - o >= config.apart and o not in told]
+        closures += close_loops(
+            graph, submaps, node, others, log.t, config.closure, config.matching, edits.rejected
+        )
+        if len(graph.links) > links:
             graph.solve(3)
         progress(0.8 * (node + 1) / len(graph.nodes), "closing loops")
     return closures
@@ -128,7 +146,8 @@ def _align(
             int(number[link.source]),
             int(number[link.target]),
             link.pose,
-            link.information * config.kept_closure_weight,
+            link.information * (1.0 if link.by_person else config.kept_closure_weight),
+            link.by_person,
         )
         for link in graph.links
     ]

@@ -28,12 +28,14 @@ class Link:
         source, target: node numbers.
         pose: (3,) of the target in the frame of the source.
         information: (3, 3) inverse covariance.
+        by_person: a person said so: it counts in full however far off it is.
     """
 
     source: int
     target: int
     pose: FloatArray
     information: FloatArray
+    by_person: bool = False
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,8 @@ as good (a corridor, a mirrored room), or when the best pose lies at the border 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Container
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -54,6 +55,7 @@ class Closure:
         score, ambiguity: of the match.
         accepted: it was used.
         reason: why or why not, in words.
+        by_person: a person said so.
     """
 
     t_source: float
@@ -65,6 +67,12 @@ class Closure:
     ambiguity: float
     accepted: bool
     reason: str
+    by_person: bool = False
+
+    @property
+    def id(self) -> str:
+        """Names the closure: the milliseconds of its ends. The same in every correction of the drive."""
+        return f"c{round(1000 * self.t_source)}_{round(1000 * self.t_target)}"
 
 
 def close_loops(
@@ -75,6 +83,7 @@ def close_loops(
     t: FloatArray,
     config: ClosureConfig,
     matching: MatchingConfig,
+    rejected: Container[str] = (),
 ) -> list[Closure]:
     """Tries a node's submap against earlier ones; accepted closures become links of the graph.
 
@@ -85,6 +94,7 @@ def close_loops(
         others: earlier nodes that share nothing with it.
         t: (N,) times of the scans.
         config, matching: parameters.
+        rejected: ids of closures that a person called wrong.
     """
     found: list[Closure] = []
     for other, covariance in _overlapping(graph, node, others, config):
@@ -101,16 +111,18 @@ def close_loops(
         if result is None:
             continue
         reason = _objection(result, config)
-        if reason is None:
+        source, target = int(graph.nodes[other]), int(graph.nodes[node])
+        closure = Closure(
+            float(t[source]), float(t[target]), source, target, result.pose, result.score,
+            result.ambiguity, reason is None, reason or "the local maps agree",
+        )  # fmt: skip
+        if closure.id in rejected:
+            said = "rejected by a person"
+            closure = replace(closure, accepted=False, reason=said, by_person=True)
+        if closure.accepted:
             information = np.asarray(np.linalg.inv(result.covariance), float)
             graph.links.append(Link(other, node, result.pose, information))
-        source, target = int(graph.nodes[other]), int(graph.nodes[node])
-        found.append(
-            Closure(
-                float(t[source]), float(t[target]), source, target, result.pose, result.score,
-                result.ambiguity, reason is None, reason or "the local maps agree",
-            )
-        )  # fmt: skip
+        found.append(closure)
     return found
 
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, Literal
 
 import numpy as np
+import numpy.typing as npt
 from PIL import Image, UnidentifiedImageError
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
@@ -37,11 +38,8 @@ class MapHeader(BaseModel):
 
 def write_map(grid: OccupancyGrid, folder: Path) -> None:
     """Writes `map.pgm` (trinary, row 0 at the top) and `map.yaml` into a folder that exists."""
-    pixels = np.full(grid.state.shape, PIXEL_UNKNOWN, np.uint8)
-    pixels[grid.state == FREE] = PIXEL_FREE
-    pixels[grid.state == OCCUPIED] = PIXEL_OCCUPIED
     rows, cols = grid.geometry.shape
-    data = f"P5\n{cols} {rows}\n255\n".encode() + pixels[::-1].tobytes()
+    data = f"P5\n{cols} {rows}\n255\n".encode() + trinary(grid).tobytes()
     (folder / "map.pgm").write_bytes(data)
     x, y, heading = grid.geometry.origin
     (folder / "map.yaml").write_text(
@@ -51,6 +49,14 @@ def write_map(grid: OccupancyGrid, folder: Path) -> None:
         f"negate: 0\noccupied_thresh: {OCCUPIED_THRESHOLD}\nfree_thresh: {FREE_THRESHOLD}\n",
         encoding="utf-8",
     )
+
+
+def trinary(grid: OccupancyGrid) -> npt.NDArray[np.uint8]:
+    """The pixels (rows, cols) of the map's image, row 0 at the top."""
+    pixels = np.full(grid.state.shape, PIXEL_UNKNOWN, np.uint8)
+    pixels[grid.state == FREE] = PIXEL_FREE
+    pixels[grid.state == OCCUPIED] = PIXEL_OCCUPIED
+    return pixels[::-1]
 
 
 def read_map(yaml_path: Path, image_path: Path | None = None) -> OccupancyGrid:

@@ -7,11 +7,16 @@ wall speaks about them; what they leave open stays as uncertain as it was.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from core.geometry import FloatArray
+from core.mapping.odometry_model import OdometryNoise
+
+CHANGE = 0.25
+"""How much a robot changes between two drives (worn tyres, another floor), as a share of how much
+robots differ from each other."""
 
 
 @dataclass(frozen=True)
@@ -44,6 +49,20 @@ class OdometryCalibration:
         """(3,) their standard deviations."""
         return np.array(
             [self.distance_scale_sigma, self.turn_scale_sigma, self.drift_per_metre_sigma]
+        )
+
+    def known_before(self, noise: OdometryNoise) -> OdometryNoise:
+        """What is known of the robot's next drive: this, a little less surely than now.
+
+        Args:
+            noise: of any robot.
+        """
+        older = np.hypot(self.sigma, CHANGE * noise.systematic)
+        sigma = np.minimum(older, noise.systematic)
+        scale, turn, drift = (float(value) for value in sigma)
+        expected = (self.distance_scale, self.turn_scale, self.drift_per_metre)
+        return replace(
+            noise, distance_scale=scale, turn_scale=turn, drift_per_metre=drift, expected=expected
         )
 
     def sentences(self, sigmas: float = 2.0) -> tuple[str, ...]:

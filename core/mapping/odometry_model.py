@@ -20,7 +20,7 @@ NO_CORRECTION = np.zeros(3)
 
 @dataclass(frozen=True)
 class OdometryNoise:
-    """Standard deviations of the errors before anything is known of a robot.
+    """Standard deviations of the errors before the log; unless said otherwise those of any robot.
 
     Attributes:
         distance_scale, turn_scale: systematic, shares.
@@ -28,6 +28,7 @@ class OdometryNoise:
         position, heading: random, m and rad per square root of a metre.
         metres_per_radian: the distance that a turn counts for in the random errors.
         position_floor, heading_floor: random, m and rad per stretch.
+        expected: the systematic errors themselves, where they are known of a robot (in that order).
     """
 
     distance_scale: float = 0.02
@@ -38,6 +39,7 @@ class OdometryNoise:
     metres_per_radian: float = 0.1
     position_floor: float = 0.003
     heading_floor: float = 0.002
+    expected: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     @property
     def systematic(self) -> FloatArray:

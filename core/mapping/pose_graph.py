@@ -78,7 +78,7 @@ class PoseGraph:
 
     def __post_init__(self) -> None:
         self.poses = self.odometry[self.nodes[:1]].copy()
-        self.error = np.zeros(3)
+        self.error = np.array(self.noise.expected)
         self.links: list[Link] = []
         self.link_weights = np.zeros(0)
         self.walls: dict[int, float] = {}
@@ -218,7 +218,9 @@ class PoseGraph:
             info = np.array([link.information for link in self.links])
             closing = residual[count - 1 :]
             distance = np.einsum("ei,eij,ej->e", closing, info, closing)
-            self.link_weights = 1 / (1 + distance / self.config.kernel) ** 2
+            by_person = np.array([link.by_person for link in self.links])
+            weights = 1 / (1 + distance / self.config.kernel) ** 2
+            self.link_weights = np.where(by_person, 1.0, weights)
             information[count - 1 :] = info * self.link_weights[:, None, None]
         at_error = np.zeros((len(source), 3, 3))
         at_error[: count - 1] = -self.by_error[: count - 1]
@@ -258,7 +260,7 @@ class PoseGraph:
         rows_ += [k, shared]
         cols_ += [k, shared]
         values += [np.full(3, self.config.anchor_weight), prior]
-        right[shared] -= prior * self.error
+        right[shared] -= prior * (self.error - np.array(self.noise.expected))
         for row, col, value in self._unary_and_points(right):
             rows_.append(row)
             cols_.append(col)

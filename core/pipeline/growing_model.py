@@ -83,7 +83,7 @@ class GrowingModel:
             self.driven += float(np.hypot(*(pose[:2] - self._poses[-1][:2])))
         self._t.append(scan.t)
         self._poses.append(pose)
-        if self._key is None or _apart(pose, self._key):
+        if self._key is None or apart(pose, self._key):
             self._map.add(scan, pose)
             self._key = pose
         if np.floor(self.driven / step) <= before:
@@ -128,7 +128,7 @@ def grown_along(
     return model
 
 
-def _apart(pose: FloatArray, other: FloatArray) -> bool:
-    """Whether a scan tells something new."""
+def apart(pose: FloatArray, other: FloatArray) -> bool:
+    """Whether a scan at a pose (3,) tells something new after one at the other."""
     away = float(np.hypot(*(pose[:2] - other[:2])))
     return away >= KEY_DISTANCE or abs(float(wrap_angle(pose[2] - other[2]))) >= KEY_TURN

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import platform
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, field, replace
 from importlib.metadata import PackageNotFoundError, version
 from typing import Any, Literal
 
@@ -11,8 +11,11 @@ import numpy as np
 
 from core.errors import InputError, MapError, UsageError
 from core.mapping import OccupancyGrid
+from core.mapping.drift_edits import DriftEdits
 from core.mapping.occupancy_grid import DEFAULT_RESOLUTION
+from core.mapping.odometry_calibration import OdometryCalibration
 from core.pipeline.corrected_drive import corrected_drive
+from core.pipeline.drift_review import drift_view
 from core.pipeline.floor import floor_of_drive, large_parts
 from core.pipeline.growing_model import MethodName
 from core.pipeline.mapper import MappingMethod, MappingOptions, map_log
@@ -50,6 +53,8 @@ class ModellingOptions:
         odometry: which trajectory the map is made at.
         resolution: metres per cell.
         seed: of everything that is drawn.
+        edits: what a person says about the drift of the drive.
+        known: the calibration of the robot's odometry from an earlier drive.
     """
 
     mode: Mode | None = None
@@ -59,6 +64,8 @@ class ModellingOptions:
     odometry: OdometryChoice = "corrected"
     resolution: float = DEFAULT_RESOLUTION
     seed: int = 0
+    edits: DriftEdits = field(default_factory=DriftEdits)
+    known: OdometryCalibration | None = None
 
     def __post_init__(self) -> None:
         if self.mode == "autonomous" and self.regions is not None:
@@ -91,9 +98,9 @@ def model_log(
         InputError: the log cannot be modelled so.
     """
     options = options or ModellingOptions()
-    whole, drive = (
-        log,
-        corrected_drive(log.without_truth(), options.odometry, part_of(progress, 0.0, DRIFT_SHARE)),
+    whole = log
+    drive = corrected_drive(
+        log, options.odometry, part_of(progress, 0.0, DRIFT_SHARE), options.edits, options.known
     )
     log, trajectory = drive.log, drive.trajectory
     mapping = MappingOptions(options.mapping, options.resolution)
@@ -118,7 +125,8 @@ def model_log(
         "mapping": mapping.parameters(),
     }
     progress(CUTTING_SHARE, "finding doorways")
-    return _model(grid, found, drive.whole.trajectory, options, provenance, previous)
+    model = _model(grid, found, drive.whole.trajectory, options, provenance, previous)
+    return replace(model, drift=drift_view(drive, grid, mapping, options.edits))
 
 
 def model_map(

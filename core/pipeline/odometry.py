@@ -6,7 +6,7 @@ makes the map sharper than the odometry does.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 import numpy as np
@@ -14,6 +14,7 @@ import numpy as np
 from core.geometry import FloatArray
 from core.mapping.drift_config import DriftConfig
 from core.mapping.drift_correction import DriftResult, correct_drift
+from core.mapping.drift_edits import DriftEdits
 from core.mapping.loop_closure import Closure
 from core.mapping.map_sharpness import SharpnessConfig, map_sharpness
 from core.mapping.odometry_breaks import (
@@ -57,6 +58,13 @@ class OdometryConfig:
     breaks: BreakConfig = field(default_factory=BreakConfig)
     sharpness: SharpnessConfig = field(default_factory=SharpnessConfig)
 
+    def knowing(self, calibration: OdometryCalibration | None) -> OdometryConfig:
+        """The same for a robot whose calibration is known from an earlier drive."""
+        if calibration is None:
+            return self
+        noise = calibration.known_before(self.drift.noise)
+        return replace(self, drift=replace(self.drift, noise=noise))
+
 
 @dataclass(frozen=True)
 class OdometryResult:
@@ -86,6 +94,7 @@ def trajectory_for(
     choice: OdometryChoice = "corrected",
     progress: Progress = no_progress,
     config: OdometryConfig | None = None,
+    edits: DriftEdits | None = None,
 ) -> OdometryResult:
     """The poses to map a drive at.
 
@@ -94,9 +103,14 @@ def trajectory_for(
         choice: `raw` (the odometry as it is), `calibrated` (its systematic errors taken out) or
             `corrected`.
         progress: 0..1.
-        config: parameters.
+        config: parameters; `config.drift.noise` holds what is known of the robot.
+        edits: what a person says about the drive. When that moves it, the correction is used in any
+            case.
+
+    Raises:
+        InputError: the edits speak of another drive, or of its start.
     """
-    config = config or OdometryConfig()
+    config, edits = config or OdometryConfig(), edits or DriftEdits()
     whole = (0, len(log))
     if choice == "raw" or len(log) < 3:
         return OdometryResult(Trajectory.from_odometry(log), "raw", None, (), (), whole, ())
@@ -105,7 +119,7 @@ def trajectory_for(
     part = _longest_part(log, breaks)
     smooth = without_jumps(log, breaks)
     drive = smooth.slice(*part)
-    result = correct_drift(drive, config.drift, part_of(progress, 0.0, 0.95))
+    result = correct_drift(drive, config.drift, part_of(progress, 0.0, 0.95), edits)
     calibrated = without_systematic_error(drive.odometry, result.calibration.error)
     options: dict[OdometryChoice, Trajectory] = {
         "raw": _uncertain(drive, drive.odometry, config.drift.noise),
@@ -113,7 +127,8 @@ def trajectory_for(
         "corrected": result.trajectory,
     }
     revisited = any(closure.accepted for closure in result.closures)
-    used = _best(drive, options, choice, revisited, config)
+    by_person = edits.decisive and choice == "corrected"
+    used = choice if by_person else _best(drive, options, choice, revisited, config)
     trajectory = _whole(smooth, part, options[used])
     progress(1.0, "odometry")
     return OdometryResult(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 import math
 from dataclasses import dataclass
 
@@ -42,6 +43,15 @@ class SonarRing:
     def reach(self) -> float:
         """The farthest point from the robot's centre that a reading can speak of, in metres."""
         return max(math.hypot(s.x, s.y) + s.max_range for s in self.sonars)
+
+    @property
+    def fingerprint(self) -> str:
+        """Tells robots apart by what their logs say of them: 16 hexadecimal digits of the geometry."""
+        values = [self.robot_radius]
+        for s in self.sonars:
+            values += [s.x, s.y, s.heading, s.beam_width, s.min_range, s.max_range]
+        text = ",".join(f"{value + 0.0:.3f}" for value in values)
+        return hashlib.sha256(text.encode()).hexdigest()[:16]
 
 
 def circle(

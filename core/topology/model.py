@@ -8,6 +8,7 @@ from typing import Any
 
 from core.geometry import IntArray
 from core.mapping import OccupancyGrid
+from core.mapping.drift_view import DriftView
 from core.sensing import Trajectory
 from core.topology.topological_map import TopologicalMap
 
@@ -26,6 +27,7 @@ class Model:
         history: the steps and decisions that made the regions, in order.
         timeline: the picture (PNG, `segmentation/step_picture.py`) of each step in the history;
             none for models that no drive has made.
+        drift: the drive before and after its correction; None for a map that was imported.
     """
 
     grid: OccupancyGrid
@@ -36,3 +38,4 @@ class Model:
     provenance: Mapping[str, Any]
     history: tuple[Mapping[str, Any], ...] = ()
     timeline: tuple[bytes, ...] = ()
+    drift: DriftView | None = None

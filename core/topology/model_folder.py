@@ -15,6 +15,7 @@ from pydantic import BaseModel, ConfigDict, ValidationError
 from core.errors import ModelError
 from core.geometry import IntArray
 from core.log_readers.safe_yaml import describe
+from core.mapping.drift_view import DRIFT_FILE, ODOMETRY_MAP_FILE, DriftView
 from core.mapping.map_server import read_map, write_map
 from core.sensing import Trajectory
 from core.topology.labels import room_image
@@ -81,6 +82,10 @@ def write_model(model: Model, folder: Path) -> None:
     _write_history(folder / "history.jsonl", model.history)
     if model.timeline:
         write_timeline(model.timeline, folder / TIMELINE_FILE)
+    if model.drift is not None:
+        (folder / DRIFT_FILE).write_text(json.dumps(model.drift.report), encoding="utf-8")
+        if model.drift.odometry_map is not None:
+            (folder / ODOMETRY_MAP_FILE).write_bytes(model.drift.odometry_map)
     (folder / "provenance.json").write_text(
         json.dumps(model.provenance, indent=1, allow_nan=False) + "\n", encoding="utf-8"
     )
@@ -112,7 +117,17 @@ def read_model(folder: Path) -> Model:
         _read_json(folder / "provenance.json") if (folder / "provenance.json").is_file() else {},
         read_history(folder),
         read_timeline(folder / TIMELINE_FILE),
+        _read_drift(folder),
     )
+
+
+def _read_drift(folder: Path) -> DriftView | None:
+    """The drive before and after its correction; None where that was not kept."""
+    picture = folder / ODOMETRY_MAP_FILE
+    if not (folder / DRIFT_FILE).is_file():
+        return None
+    report = _read_json(folder / DRIFT_FILE)
+    return DriftView(report, picture.read_bytes() if picture.is_file() else None)
 
 
 def write_topology(topology: TopologicalMap, folder: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import subprocess
 import sys
 from pathlib import Path
@@ -122,3 +123,30 @@ def test_the_installed_command_answers_without_a_traceback() -> None:
     done = subprocess.run(command, capture_output=True, text=True, check=False)
     assert done.returncode == 2
     assert done.stderr == "error: nowhere: no such file or folder\n"
+
+
+def test_a_calibration_is_kept_and_used_again(log: Path, tmp_path: Path) -> None:
+    robot = tmp_path / "robot.json"
+    arguments = ["map", str(log), "--out", str(tmp_path / "m"), "--calibration", str(robot)]
+
+    assert run(arguments) == 0
+    kept = json.loads(robot.read_text())
+    robot.write_text(json.dumps(kept | {"turn_scale": 0.01, "turn_scale_sigma": 0.001}))
+    assert run(arguments) == 0
+
+    again = json.loads(robot.read_text())
+    assert kept["format"] == "echorooms-calibration"
+    assert again["turn_scale"] == pytest.approx(0.01, abs=1e-3)
+    assert again["turn_scale_sigma"] < kept["turn_scale_sigma"]
+
+
+def test_a_file_that_is_no_calibration_is_refused(
+    log: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    robot = tmp_path / "robot.json"
+    robot.write_text("{}")
+
+    error = fails(capsys, "map", log, "--out", tmp_path / "m", "--calibration", robot)
+
+    assert "robot.json is no calibration" in error
+    assert not (tmp_path / "m").exists()

@@ -88,7 +88,7 @@ def test_a_jump_of_the_odometry_is_left_out(drifted: RobotLog) -> None:
 
     poses = grown(replace(part, odometry=jumped)).told()
 
-    assert poses == pytest.approx(grown(part).told(), abs=0.02)
+    assert poses == pytest.approx(grown(part).told(), abs=CELL)
 
 
 def test_a_drive_without_echoes_follows_the_odometry(drifted: RobotLog) -> None:

@@ -81,3 +81,16 @@ def test_a_topology_that_names_a_region_that_is_not_there_is_refused(folder: Pat
     (folder / "topology.json").write_text(json.dumps(content))
     with pytest.raises(ModelError, match="99"):
         read_model(folder)
+
+
+def test_the_drive_before_its_correction_is_kept(model: Model, folder: Path) -> None:
+    kept = read_model(folder).drift
+
+    assert kept is not None
+    assert model.drift is not None
+    assert kept.odometry_map == model.drift.odometry_map
+    assert kept.report["edits"] == {
+        "rejected": [], "accepted": [], "same_places": [], "dragged": []
+    }  # fmt: skip
+    with Image.open(folder / "odometry_map.png") as picture:
+        assert picture.size[::-1] == tuple(kept.report["odometry_map"]["shape"])
