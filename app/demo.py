@@ -1,4 +1,5 @@
-"""The demo: sample logs that come with the product, loaded, modelled and localized at first start."""
+"""The demo: sample logs that come with the product, loaded, modelled and localized at first start, and
+a simulated robot that maps a home of its own."""
 
 from __future__ import annotations
 
@@ -14,6 +15,8 @@ from app.errors import Problem
 from app.jobs.localizing import localize_a_log
 from app.jobs.modelling import model_a_log
 from app.jobs.reading import keep_log
+from app.robots.fleet import RobotFleet
+from app.robots.order import RobotOrder
 from app.services import Services
 from app.settings import PACKAGE_ROOT
 from app.storage.records import Status
@@ -26,6 +29,8 @@ SAMPLE_OPTIONS: dict[str, Any] = {}
 """Autonomous, with every default."""
 LOCALIZATION_OPTIONS: dict[str, Any] = {"method": "default"}
 HEARTBEAT_S = 60.0
+ROBOT = RobotOrder(home="random-17", seed=1)
+"""What drives while the samples are looked at: a home that is not among them."""
 logger = logging.getLogger(__name__)
 
 
@@ -42,6 +47,14 @@ async def show_samples(services: Services, folder: Path = SAMPLE_FOLDER) -> None
     """Loads and models the samples, and localizes in each model as soon as it is made."""
     homes = await load_samples(services, folder)
     await asyncio.gather(*(localize_samples(services, home) for home in homes))
+
+
+async def send_a_robot(fleet: RobotFleet) -> None:
+    """Lets a simulated robot tour and map a home."""
+    try:
+        await fleet.create(ROBOT)
+    except Problem as problem:
+        logger.warning("the demo's robot does not drive: %s", problem.detail)
 
 
 async def load_samples(services: Services, folder: Path = SAMPLE_FOLDER) -> list[SampleHome]:

@@ -16,6 +16,7 @@ from app.events import ModelEvents
 from app.settings import Settings
 
 if TYPE_CHECKING:
+    from app.live.hub import LiveHub
     from core.topology import Model
 
 VIEW_PREFIX = "/view/"
@@ -29,8 +30,11 @@ class LazyView(BaseRoute):
         load_model: Callable[[str], Model | None],
         events: ModelEvents,
         settings: Settings,
+        live: Callable[[], LiveHub],
     ) -> None:
+        """`live` gives the live sessions of the running app."""
         self._load_model = load_model
+        self._live = live
         self._events = events
         self._settings = settings
         self._view: FastAPI | None = None
@@ -60,5 +64,5 @@ class LazyView(BaseRoute):
 
         view = FastAPI(openapi_url=None)
         install_error_handlers(view)
-        attach(view, self._load_model, self._events, self._settings)
+        attach(view, self._load_model, self._events, self._settings, live=self._live())
         return view

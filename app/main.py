@@ -25,10 +25,11 @@ from app.api import (
 )
 from app.api.static_pages import STATIC_FOLDER, StaticPages
 from app.body_limit import BodyLimit
-from app.demo import show_samples
+from app.demo import send_a_robot, show_samples
 from app.errors import PROBLEM_RESPONSES, install_error_handlers
 from app.events import ModelEvents
 from app.lazy_view import LazyView
+from app.live.blank_model import blank_model
 from app.live.hub import LiveHub
 from app.robots.fleet import RobotFleet
 from app.security import BrowserGuard
@@ -55,7 +56,9 @@ def create_app(settings: Settings) -> FastAPI:
     app.state.settings = settings
     app.state.events = events
     app.state.address = None
-    app.state.view = LazyView(lambda model_id: _load_model(app, model_id), events, settings)
+    app.state.view = LazyView(
+        lambda view_id: _load_model(app, view_id), events, settings, lambda: app.state.live
+    )
     install_error_handlers(app)
     api = APIRouter(prefix="/api", responses=PROBLEM_RESPONSES)
     for router in (
@@ -89,17 +92,29 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         await app.state.live.recover()
         app.state.robots = RobotFleet(app.state.live, lambda: app.state.address)
         await app.state.robots.recover()
-        loading = asyncio.create_task(show_samples(services)) if services.settings.demo else None
+        showing = _start_demo(app) if services.settings.demo else []
         yield
-        if loading is not None:
-            loading.cancel()
-            await asyncio.wait([loading])
+        for task in showing:
+            task.cancel()
+        await asyncio.gather(*showing, return_exceptions=True)
         await app.state.robots.close()
         await app.state.live.close()
         await app.state.view.close()
 
 
-def _load_model(app: FastAPI, model_id: str) -> Model | None:
-    """What the view shows: the stored model as it is now."""
+def _start_demo(app: FastAPI) -> list[asyncio.Task[None]]:
+    """The samples are loaded and a robot drives, while the pages are served already."""
+    return [
+        asyncio.create_task(show_samples(app.state.services)),
+        asyncio.create_task(send_a_robot(app.state.robots)),
+    ]
+
+
+def _load_model(app: FastAPI, view_id: str) -> Model | None:
+    """What the view of a model or a live session shows: the stored model as it is now."""
     services: Services = app.state.services
-    return services.models.load(model_id)
+    live: LiveHub = app.state.live
+    model, session = services.models.load(live.model_of(view_id)), live.running(view_id)
+    if model is None and session is not None:
+        return blank_model(session.recording.path)
+    return model

@@ -9,12 +9,12 @@ from datetime import datetime
 from http import HTTPStatus
 from typing import Annotated, Any, Literal
 
-from fastapi import APIRouter, Body, Depends, WebSocket, WebSocketDisconnect
+from fastapi import APIRouter, Body, Depends, Response, WebSocket, WebSocketDisconnect
 from pydantic import BaseModel, Field
 from starlette.requests import HTTPConnection
 
+from app.api.schemas import Accepted, moment
 from app.api.schemas import Body as ClosedBody
-from app.api.schemas import moment
 from app.errors import Problem
 from app.live.hub import LiveHub
 from app.live.session import Acknowledgement, LiveRecord, LiveStatus
@@ -97,6 +97,25 @@ async def get_session(session_id: str, live: LiveDep) -> LiveDetail:
 async def finish(session_id: str, live: LiveDep) -> LiveDetail:
     """Ends the session; it becomes an ordinary log with its model."""
     return LiveDetail.of(await live.finish(session_id))
+
+
+@router.get("/{session_id}/log", summary="Download what is recorded so far")
+async def recorded(session_id: str, live: LiveDep) -> Response:
+    """A native log of every scan that is safe by now."""
+    content = await asyncio.to_thread(live.session(session_id).recording.so_far)
+    disposition = {"content-disposition": f'attachment; filename="live-{session_id}.jsonl"'}
+    return Response(content, media_type="application/jsonl", headers=disposition)
+
+
+@router.post(
+    "/{session_id}/models",
+    status_code=HTTPStatus.ACCEPTED,
+    summary="Save what is there so far as a log and a model",
+)
+async def save(session_id: str, live: LiveDep) -> Accepted:
+    """The session goes on; names of its regions go along by overlap."""
+    model, job = await live.save(session_id)
+    return Accepted(id=model.id, job_id=job.id)
 
 
 @router.post("/{session_id}/scans", summary="Send scans")

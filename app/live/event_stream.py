@@ -29,6 +29,10 @@ class Listener:
             await self._called.wait()
         return self._waiting.popleft()
 
+    def take_now(self) -> Event | None:
+        """The next event if there is one already."""
+        return self._waiting.popleft() if self._waiting else None
+
 
 class EventStream:
     """Gives every event to every listener. Event loop's thread only."""

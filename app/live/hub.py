@@ -10,14 +10,15 @@ from dataclasses import replace
 from typing import Any, Literal
 
 from app.errors import Conflict, NotFound, Unprocessable
-from app.jobs.modelling import model_again
-from app.jobs.reading import read_upload
+from app.jobs.modelling import model_a_log, model_again
+from app.jobs.reading import keep_log, read_upload
 from app.live.commits import GroupCommit
 from app.live.growth import Growth
 from app.live.session import Acknowledgement, LiveRecord, LiveSession, LiveStatus
 from app.live.store import LiveStore
 from app.services import Services
 from app.storage.data_folder import new_id
+from app.storage.records import JobRecord, ModelRecord
 from core.log_readers.native import parse_header
 
 logger = logging.getLogger(__name__)
@@ -84,6 +85,16 @@ class LiveHub:
             raise NotFound("live session", session_id)
         return self._running[session_id]
 
+    def running(self, view_id: str) -> LiveSession | None:
+        """The session of that id if it has not ended. For any thread."""
+        return self._running.get(view_id)
+
+    def model_of(self, view_id: str) -> str:
+        """The model to be shown for the id of a session, or of a model. For any thread."""
+        running, ended = self._running.get(view_id), self._ended.get(view_id)
+        record = running.record if running is not None else ended
+        return view_id if record is None else record.model_id
+
     def record(self, session_id: str) -> LiveRecord:
         """Where a session stands.
 
@@ -107,6 +118,24 @@ class LiveHub:
         acknowledgement = await session.take(records)
         self._growth[session_id].look()
         return acknowledgement
+
+    async def save(self, session_id: str) -> tuple[ModelRecord, JobRecord]:
+        """Keeps what a session has recorded so far as a log, and makes a model of that.
+
+        Raises:
+            NotFound, Conflict: there is no such session, or it has ended.
+            LogError: there is too little in it yet.
+        """
+        session, services = self.session(session_id), self._services
+        with services.folder.temporary() as temp:
+            upload = temp / "live.jsonl"
+            recorded = await asyncio.to_thread(session.recording.so_far)
+            await asyncio.to_thread(upload.write_bytes, recorded)
+            log = await keep_log(services, upload, None, temp)
+        names = session.record.model_id if session.record.mode == "mapping" else None
+        if names is not None and await asyncio.to_thread(services.models.load, names) is None:
+            names = None
+        return await model_a_log(services, log.id, None, {"mode": "autonomous"}, names)
 
     async def finish(self, session_id: str) -> LiveRecord:
         """Ends a session: it becomes an ordinary log, and its model is made a last time.

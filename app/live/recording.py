@@ -70,6 +70,11 @@ class Recording:
         for record in records:
             self._count(record)
 
+    def so_far(self) -> bytes:
+        """The whole lines that are safe. Reads the disk: call it in a thread."""
+        with self.path.open("rb") as file:
+            return file.read(self._size)
+
     def _count(self, record: dict[str, Any]) -> None:
         self.stored += 1
         self.last_t = float(record["t"])

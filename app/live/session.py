@@ -15,6 +15,8 @@ from core.log_readers.native import parse_scan
 
 MOST_SCANS = 5000
 """Scans that one message may hold."""
+MOST_TOLD = 20
+"""Of scans that come together, so many are told to those who listen, the last ones."""
 
 
 class LiveStatus(StrEnum):
@@ -92,8 +94,20 @@ class LiveSession:
             except OSError:
                 self._latest_t = before
                 raise
-            self.events.send({"type": "pose", "t": latest, "pose": fresh[-1]["odom"]})
+            for scan in fresh[-MOST_TOLD:]:
+                self.events.send(self._pose_event(scan))
         return Acknowledgement(self.recording.last_t, self.recording.stored, duplicates)
+
+    def _pose_event(self, scan: dict[str, Any]) -> dict[str, Any]:
+        """Where the robot's odometry puts it, what it hears there, and how much is safe."""
+        return {
+            "type": "pose",
+            "t": scan["t"],
+            "pose": scan["odom"],
+            "ranges": scan["ranges"],
+            "stored": self.recording.stored,
+            "distance_m": round(self.recording.distance_m, 3),
+        }
 
     def _sorted_out(self, records: Any) -> tuple[list[dict[str, Any]], int, float | None]:
         given = records if isinstance(records, list) else [records]

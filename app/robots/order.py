@@ -34,21 +34,22 @@ class _Told(BaseModel):
 class RobotOrder(_Told):
     """A simulated robot to be made."""
 
-    home: str = Field("paper", pattern=HOME_PATTERN, description="paper, random-17, …")
+    home: str = Field(default="paper", pattern=HOME_PATTERN, description="paper, random-17, …")
     ring: Annotated[str, AfterValidator(_known_ring)] = Field(
-        "paper-12", description="name of a sonar ring"
+        default="paper-12", description="name of a sonar ring"
     )
     odometry: Literal["none", "calibrated", "bad"] = "calibrated"
-    seed: int = Field(0, ge=0, le=2**31, description="start, noise and goals")
+    seed: int = Field(default=0, ge=0, le=2**31, description="start, noise and goals")
     mode: Literal["tour", "drive"] = Field(
-        "tour", description="tours by itself, or stands until it is told to move"
+        default="tour", description="tours by itself, or stands until it is told to move"
     )
     model_id: str | None = Field(
-        None, max_length=64, description="where to localize; without it the robot maps"
+        default=None, max_length=64, description="where to localize; without it the robot maps"
     )
     speed: Speed = 1.0
     evaluation: bool = Field(
-        False, description="send the true poses too; they are kept and never used to make a model"
+        default=False,
+        description="send the true poses too; they are kept and never used to make a model",
     )
 
 

@@ -14,6 +14,7 @@ from pydantic import ValidationError
 
 from app.errors import NotFound
 from app.events import ModelEvents
+from app.live.hub import LiveHub
 from app.settings import Settings
 from app.viewer.bridge import bridge
 from app.viewer.hub import Hub, HubConfig
@@ -35,6 +36,7 @@ def attach(
     events: ModelEvents,
     settings: Settings,
     config: HubConfig | None = None,
+    live: LiveHub | None = None,
 ) -> None:
     """Adds the 3D view to an app.
 
@@ -43,10 +45,11 @@ def attach(
         events: heard for models that change or go.
         settings: the app's settings; Host and Origin are checked by the app's guard.
         config: when views are closed.
+        live: the live sessions, which are shown under their ids.
 
     The hub is `app.state.viewer`, for what plays back in a tab.
     """
-    hub = Hub(load_model, events, config)
+    hub = Hub(load_model, events, config, live)
     app.state.viewer = hub
 
     @contextlib.asynccontextmanager
@@ -86,6 +89,8 @@ def _add_sockets(router: APIRouter, hub: Hub) -> None:
             chosen.mailbox.close()
         chosen.mailbox = mailbox
         mailbox.put(view.hello(chosen))
+        if view.feed is not None:
+            mailbox.put(view.feed.span())
         if chosen.scene is not None:
             chosen.tell_ready()
         await _talk(websocket, hub, model_id, chosen, mailbox)

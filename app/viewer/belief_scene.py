@@ -120,8 +120,14 @@ class BeliefScene:
             arrows.batched_wxyzs = turns
 
     def clear(self) -> None:
-        """Takes everything out, as before a redraw of the model."""
-        for name in (_BOXES, _UNKNOWN, _BODY, _TEMPLATE, _CANDIDATES):
+        """Takes everything out."""
+        self.clear_nodes()
+        for name in (_BODY, _TEMPLATE):
+            self._canvas.remove(name)
+
+    def clear_nodes(self) -> None:
+        """Takes out what stands at the nodes, as before a model with other nodes is drawn."""
+        for name in (_BOXES, _UNKNOWN, _CANDIDATES):
             self._canvas.remove(name)
 
     def _show_unknown_label(self, drawing: Drawing, shown: bool) -> None:

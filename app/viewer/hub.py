@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 from app.events import ModelEvent, ModelEvents
+from app.live.hub import LiveHub
 from app.viewer.belief_shapes import plan_bars
 from app.viewer.open_view import LoadModel, OpenView
 from app.viewer.tab import Tab
@@ -30,8 +31,13 @@ class Hub:
     """Opens, refreshes and closes views. Event loop's thread only, except `on_event`."""
 
     def __init__(
-        self, load_model: LoadModel, events: ModelEvents, config: HubConfig | None = None
+        self,
+        load_model: LoadModel,
+        events: ModelEvents,
+        config: HubConfig | None = None,
+        live: LiveHub | None = None,
     ) -> None:
+        self._live = live
         self._load_model = load_model
         self._config = config or HubConfig()
         self._opening: dict[str, asyncio.Task[OpenView | None]] = {}
@@ -108,15 +114,24 @@ class Hub:
         model = await asyncio.to_thread(self._load_model, model_id)
         if model is None:
             return None
-        return await asyncio.to_thread(OpenView, model_id, model, asyncio.get_running_loop())
+        view = await asyncio.to_thread(OpenView, model_id, model, asyncio.get_running_loop())
+        session = self._live.running(model_id) if self._live is not None else None
+        if session is not None:
+            view.follow(session)
+        return view
 
     def _react(self, event: ModelEvent, model_id: str) -> None:
-        if model_id not in self._opening:
-            return
+        for view_id in list(self._opening):
+            if view_id == model_id or (
+                self._live is not None and self._live.model_of(view_id) == model_id
+            ):
+                self._react_in(view_id, event)
+
+    def _react_in(self, view_id: str, event: ModelEvent) -> None:
         work = (
-            self._close_view(model_id, deleted=True)
+            self._close_view(view_id, deleted=True)
             if event is ModelEvent.DELETED
-            else self._refresh(model_id)
+            else self._refresh(view_id)
         )
         task = asyncio.create_task(work)
         self._background.add(task)

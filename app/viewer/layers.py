@@ -13,6 +13,7 @@ from app.viewer.canvas import Canvas
 
 GRID, REGIONS, WALLS, CELLS = "grid", "regions", "walls", "cells"
 GRAPH, LABELS, PATH, BARS, ROBOT = "graph", "labels", "trajectory", "bars", "robot"
+BEAMS = "beams"
 
 DEFAULT_LAYERS: Mapping[str, bool] = {
     GRID: True,
@@ -24,6 +25,7 @@ DEFAULT_LAYERS: Mapping[str, bool] = {
     PATH: False,
     BARS: True,
     ROBOT: True,
+    BEAMS: True,
 }
 """Every layer, in the order of the page, and whether it is shown at first."""
 

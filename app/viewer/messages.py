@@ -96,8 +96,34 @@ class Beside(_Message):
     model: str | None = Field(max_length=200)
 
 
+class Live(_Message):
+    """Page -> view: how a live session is shown; `at` is the moment (s), null: now."""
+
+    type: Literal["live"]
+    follow: bool
+    paused: bool
+    at: float | None = Field(allow_inf_nan=False)
+
+
+class Pick(_Message):
+    """Page -> view: the next click is to be a place on the floor (or no more)."""
+
+    type: Literal["pick"]
+    on: bool
+
+
 FromPage = Annotated[
-    Select | Layers | Camera | Measure | Theme | Viewport | Playback | Moment | Beside,
+    Select
+    | Layers
+    | Camera
+    | Measure
+    | Theme
+    | Viewport
+    | Playback
+    | Moment
+    | Beside
+    | Live
+    | Pick,
     Field(discriminator="type"),
 ]
 FROM_PAGE: TypeAdapter[FromPage] = TypeAdapter(FromPage)
@@ -156,6 +182,22 @@ class Measured(_Message):
     distance_m: float | None
 
 
+class Picked(_Message):
+    """View -> page: the place on the floor (m) that was clicked."""
+
+    type: Literal["picked"] = "picked"
+    x: float
+    y: float
+
+
+class Track(_Message):
+    """View -> page: it shows a live session; from when to when it can be looked at (s)."""
+
+    type: Literal["track"] = "track"
+    first_t: float | None
+    last_t: float | None
+
+
 class CameraView(_Message):
     """View -> page: which of the standard views the camera was sent to."""
 
@@ -163,4 +205,15 @@ class CameraView(_Message):
     view: Literal["3d", "top"]
 
 
-ToPage = Hello | Ready | Selected | Labels | ModelChanged | ModelDeleted | Measured | CameraView
+ToPage = (
+    Hello
+    | Ready
+    | Selected
+    | Labels
+    | ModelChanged
+    | ModelDeleted
+    | Measured
+    | CameraView
+    | Picked
+    | Track
+)

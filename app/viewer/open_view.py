@@ -10,8 +10,10 @@ from collections.abc import Callable, Sequence
 import numpy as np
 import viser
 
+from app.live.session import LiveSession
 from app.viewer.camera import fit_3d
 from app.viewer.drawing import draw, relabelled
+from app.viewer.live_feed import LiveFeed
 from app.viewer.messages import Hello, Labels, ModelChanged, ModelDeleted
 from app.viewer.palette import hex_of
 from app.viewer.scene import ModelScene, label_text
@@ -35,6 +37,7 @@ class OpenView:
         self.model = model
         self.drawing = draw(model)
         self.tabs: dict[str, Tab] = {}
+        self.feed: LiveFeed | None = None
         self.last_used = time.monotonic()
         self._loop = loop
         self._stale = False
@@ -47,10 +50,16 @@ class OpenView:
         self.server.on_client_connect(self._client_connected)
         self.server.on_client_disconnect(self._client_gone)
 
+    def follow(self, session: LiveSession) -> None:
+        """Shows a live session over the model that grows with it, or in which the robot is."""
+        self.feed = LiveFeed(session, lambda: list(self.tabs.values()))
+
     def tab(self, token: str) -> Tab:
         """The tab of a token, made when it is new."""
         self.last_used = time.monotonic()
-        return self.tabs.setdefault(token, Tab(token))
+        if token not in self.tabs:
+            self.tabs[token] = Tab(token, self.feed.track if self.feed is not None else None)
+        return self.tabs[token]
 
     def hello(self, tab: Tab) -> Hello:
         """What a page is told first."""
@@ -97,6 +106,8 @@ class OpenView:
 
     async def close(self, deleted: bool = False) -> None:
         """Ends every tab and the server."""
+        if self.feed is not None:
+            self.feed.close()
         for tab in self.tabs.values():
             if deleted:
                 tab.tell(ModelDeleted())

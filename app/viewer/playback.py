@@ -46,7 +46,7 @@ class Playback:
         self.stop()
         if other_nodes:
             self._bars = None
-            scene.belief.clear()
+            scene.belief.clear_nodes()
         if self.belief is not None:
             self.show(self.belief, scene)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
@@ -10,19 +9,24 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import viser
 
-from app.viewer.camera import View, blend, farthest, fit_3d, fit_top, near
+from app.viewer.camera import View
 from app.viewer.camera_link import CameraLink
 from app.viewer.drawing import Drawing, NodeMark
 from app.viewer.layers import DEFAULT_LAYERS
+from app.viewer.live_show import LiveShow
+from app.viewer.live_track import LiveTrack
 from app.viewer.mailbox import Mailbox
 from app.viewer.messages import (
     Camera,
     CameraView,
     FromPage,
     Layers,
+    Live,
     Measure,
     Measured,
     Moment,
+    Pick,
+    Picked,
     Playback,
     Ready,
     Select,
@@ -34,22 +38,13 @@ from app.viewer.messages import (
 from app.viewer.moment_playback import FINISHED, MomentPlayback
 from app.viewer.picking import floor_point, picked_node
 from app.viewer.playback import Playback as PlaybackState
+from app.viewer.tab_camera import TabCamera, camera_view
 from app.viewer.tab_scene import TabScene
 from core.geometry import FloatArray
 
-_SETTLE_AFTER = 0.12
-_SAME_ASPECT = 0.01
-_TRAVEL_TIME, _TRAVEL_STEPS = 0.35, 12
-"""Seconds and pictures of a camera's way from one standard view to another."""
+_FIT_EVERY = 2.0
+"""Seconds: a robot that leaves the picture is in it again after this long at most."""
 _DEFAULT_HEIGHT = 800.0
-
-
-@dataclass(frozen=True)
-class Fitted:
-    """A standard view that the camera was sent to, and the aspect of the picture that it fits."""
-
-    view: View
-    aspect: float
 
 
 @dataclass
@@ -60,18 +55,20 @@ class TabState:
     others: tuple[str, ...] = ()
     layers: dict[str, bool] = field(default_factory=lambda: dict(DEFAULT_LAYERS))
     theme: str = "light"
-    view: str = "3d"
     measuring: bool = False
+    picking: bool = False
     points: list[tuple[float, float]] = field(default_factory=list)
     picture_height: float = _DEFAULT_HEIGHT
-    camera: View | None = None
 
 
 class Tab:
     """The state of a tab and the two connections that it may have. Event loop's thread only."""
 
-    def __init__(self, token: str) -> None:
+    def __init__(self, token: str, track: LiveTrack | None = None) -> None:
+        """`track`: of the live session that the view shows."""
         self.token = token
+        self.track = track
+        self.live = LiveShow()
         self.state = TabState()
         self.scene: TabScene | None = None
         self.mailbox: Mailbox | None = None
@@ -79,10 +76,8 @@ class Tab:
         self.playback = PlaybackState()
         self.moment = MomentPlayback()
         self.camera_link = CameraLink(self._stand_as)
-        self._fitted: Fitted | None = None
-        self._aim: Fitted | None = None
-        self._travel: asyncio.Task[None] | None = None
-        self._settle_due: asyncio.TimerHandle | None = None
+        self._fitted_at = 0.0
+        self.camera = TabCamera(self._outline, self._declutter)
 
     @property
     def connected(self) -> bool:
@@ -105,7 +100,6 @@ class Tab:
 
     def join(self, client: viser.ClientHandle, drawing: Drawing) -> None:
         """A 3D view has connected: brings it to this tab's state."""
-        self._stop_moving()
         state = self.state
         self.scene = TabScene(client, drawing)
         self.scene.wear(state.theme)
@@ -114,19 +108,15 @@ class Tab:
         self.scene.measure(state.points)
         self.playback.again(self.scene)
         self.moment.again(self.scene, state.theme)
-        if state.camera is None:
-            self._stand_at_standard(self.scene)
-        else:
-            far = farthest(self._standard(self.scene).view, drawing.outline)
-            self.scene.stand_at(state.camera, far)
-        self.camera_moved()
+        self._draw_live()
+        self.camera.join(self.scene)
         self.tell_ready()
 
     def leave(self, client: viser.ClientHandle) -> None:
         """A 3D view has gone; nothing if another has taken its place."""
         self.last_used = time.monotonic()
         if self.scene is not None and self.scene.client.client_id == client.client_id:
-            self._stop_moving()
+            self.camera.stop()
             self.playback.stop()
             self.moment.stop()
             self.scene = None
@@ -144,6 +134,8 @@ class Tab:
             self.scene.select(self.state.selected, self.state.others)
             self.playback.again(self.scene, other_nodes=not _same_places(before, drawing.nodes))
             self.moment.again(self.scene, self.state.theme)
+            if self.track is not None and not self.live.follow:
+                self.camera.fit_again(self.scene)
             self.camera_moved()
 
     def handle(self, message: FromPage) -> None:
@@ -169,9 +161,18 @@ class Tab:
                 self._play(message)
             case Moment():
                 self._show_moment(message)
+            case Live():
+                self._show_live(message)
+            case Pick():
+                self.state.picking = message.on
 
     def click(self, drawing: Drawing, origin: FloatArray, direction: FloatArray) -> None:
         """A click in the 3D view, as a ray in the world."""
+        if self.state.picking:
+            point = floor_point(origin, direction)
+            if point is not None:
+                self.tell(Picked(x=point[0], y=point[1]))
+            return
         if self.state.measuring:
             point = floor_point(origin, direction)
             if point is not None:
@@ -182,17 +183,44 @@ class Tab:
             self._select(node)
             self.tell(Selected(node=node))
 
+    def live_moved(self, anew: bool) -> None:
+        """The live session has a scan more (or, `anew`, many)."""
+        if self.scene is None or self.track is None:
+            return
+        first = not self.live.drawn
+        self.live.draw(self.track, self.scene, anew)
+        if self.live.drawn and (first or time.monotonic() > self._fitted_at + _FIT_EVERY):
+            self._fitted_at = time.monotonic()
+            self.camera.fit_again(self.scene)
+        self._follow(self.scene, self.track)
+
+    def live_believed(self) -> None:
+        """The live session knows better where the robot is, and how sure that is."""
+        if not self.live.paused and self.live.at is None:
+            self._believe_live()
+            self._draw_live()
+
+    def live_mapped(self) -> None:
+        """What the robot has heard is in the map now."""
+        if self.scene is not None:
+            self.scene.live.clear_dots()
+
+    def live_ended(self) -> None:
+        """The live session is over; the model stays."""
+        if self.scene is not None:
+            self.playback.show(None, self.scene)
+            self.scene.live.clear()
+        self.track = None
+
     def camera_moved(self) -> None:
         """The camera or the picture has changed: labels are laid out again, not too often."""
         if self.scene is not None:
             self.camera_link.moved(camera_view(self.scene.client))
-        if self._settle_due is None and self.scene is not None:
-            loop = asyncio.get_running_loop()
-            self._settle_due = loop.call_later(_SETTLE_AFTER, self._settle)
+            self.camera.moved(self.scene)
 
     def close(self) -> None:
         """The view closes for good."""
-        self._stop_moving()
+        self.camera.stop()
         self.playback.stop()
         self.moment.stop()
         self.scene = None
@@ -221,7 +249,7 @@ class Tab:
         self.moment.show(message, self.scene, self.state.theme)
         if before != self.moment.shown and self.scene is not None:
             self.scene.layers.show(self._visible(self.state.layers))
-            if self._fitted is not None:
+            if self.camera.kept is None:
                 self._go("fit")
 
     def _measure(self, on: bool) -> None:
@@ -242,74 +270,55 @@ class Tab:
             self.scene.measure(points)
         self.tell(Measured(points=points, distance_m=distance))
 
+    def _show_live(self, message: Live) -> None:
+        self.live.told(message)
+        if message.at is not None:
+            self._believe_live()
+        self._draw_live()
+        if self.scene is not None and self.track is not None:
+            self._follow(self.scene, self.track)
+
+    def _draw_live(self) -> None:
+        if self.scene is not None and self.track is not None:
+            self.live.draw(self.track, self.scene, anew=True)
+
+    def _believe_live(self) -> None:
+        if self.track is not None and len(self.track):
+            belief = self.track.belief(self.track.index_at(self.live.at))
+            self.playback.show(belief, self.scene)
+
+    def _follow(self, scene: TabScene, track: LiveTrack) -> None:
+        target = self.live.camera(track, camera_view(scene.client))
+        if target is not None:
+            self.camera.follow(scene, target)
+
     def _play(self, message: Playback) -> None:
+        if self.track is not None:
+            return
         begins_or_ends = (message.belief is None) != (self.playback.belief is None)
         self.playback.show(message.belief, self.scene)
-        if begins_or_ends and self._fitted is not None:
+        if begins_or_ends and self.camera.kept is None:
             self._go("fit")
 
     def _go(self, view: str) -> None:
-        if view != "fit":
-            self.state.view = view
-        self.state.camera = None
-        self.tell(CameraView(view="top" if self.state.view == "top" else "3d"))
+        self.camera.go(self.scene, None if view == "fit" else view)
+        self.tell(CameraView(view="top" if self.camera.standard == "top" else "3d"))
+
+    def _outline(self, scene: TabScene) -> FloatArray:
+        """(K, 2) what must be in the picture."""
+        if self.track is not None:
+            return self.live.outline(self.track, scene.drawing)
+        return self.playback.outline(scene.drawing)
+
+    def _declutter(self, view: View) -> None:
         if self.scene is not None:
-            self._stop_moving()
-            self._fitted = None
-            self._travel = asyncio.create_task(self._travel_to_standard(self.scene))
-
-    async def _travel_to_standard(self, scene: TabScene) -> None:
-        start, target = camera_view(scene.client), self._standard(scene).view
-        far = farthest(target, scene.drawing.outline)
-        for step in range(1, _TRAVEL_STEPS):
-            scene.stand_at(blend(start, target, step / _TRAVEL_STEPS), far)
-            await asyncio.sleep(_TRAVEL_TIME / _TRAVEL_STEPS)
-        self._stand_at_standard(scene)
-        self.camera_moved()
-
-    def _stand_at_standard(self, scene: TabScene) -> None:
-        self._fitted = self._aim = self._standard(scene)
-        scene.stand_at(self._fitted.view, farthest(self._fitted.view, scene.drawing.outline))
-
-    def _standard(self, scene: TabScene) -> Fitted:
-        aspect = scene.client.camera.aspect
-        fit = fit_top if self.state.view == "top" else fit_3d
-        return Fitted(fit(self.playback.outline(scene.drawing), aspect), aspect)
-
-    def _settle(self) -> None:
-        """After the camera or the picture's size has changed: fits again, lays labels out."""
-        self._settle_due = None
-        if self.scene is None:
-            return
-        view = camera_view(self.scene.client)
-        if self._fitted is not None and not near(view, self._fitted.view):
-            self._fitted = None
-        elif self._fitted is None and self._aim is not None and near(view, self._aim.view):
-            # A slow browser told where it was before it went there.
-            self._fitted = self._aim
-        if self._fitted is not None:
-            wider = self.scene.client.camera.aspect / self._fitted.aspect
-            if abs(wider - 1) > _SAME_ASPECT:
-                self._stand_at_standard(self.scene)
-                view = self._fitted.view
-        self.state.camera = None if self._fitted is not None else view
-        self.scene.declutter(view, self.state.picture_height, self.state.selected)
+            self.scene.declutter(view, self.state.picture_height, self.state.selected)
 
     def _stand_as(self, view: View) -> None:
         """Stands where the camera of the model beside this one stands."""
         if self.scene is not None:
-            self._stop_moving()
-            self._fitted = self._aim = None
-            self.scene.stand_at(view, farthest(view, self.scene.drawing.outline))
-            self.camera_moved()
-
-    def _stop_moving(self) -> None:
-        if self._travel is not None:
-            self._travel.cancel()
-            self._travel = None
-        if self._settle_due is not None:
-            self._settle_due.cancel()
-            self._settle_due = None
+            self.camera.follow(self.scene, view)
+            self.camera.moved(self.scene)
 
 
 def _same_places(old: Sequence[NodeMark], new: Sequence[NodeMark]) -> bool:
@@ -317,13 +326,3 @@ def _same_places(old: Sequence[NodeMark], new: Sequence[NodeMark]) -> bool:
     return [replace(node, label=None) for node in old] == [
         replace(node, label=None) for node in new
     ]
-
-
-def camera_view(client: viser.ClientHandle) -> View:
-    """Where a client's camera is now."""
-    camera = client.camera
-    position, look_at, up = (
-        tuple(float(v) for v in vector)
-        for vector in (camera.position, camera.look_at, camera.up_direction)
-    )
-    return View(position, look_at, up, float(camera.fov))  # type: ignore[arg-type]

@@ -15,6 +15,7 @@ from app.viewer.drawing import Drawing
 from app.viewer.graph_shapes import circle
 from app.viewer.label_layout import LabelBox, visible_labels
 from app.viewer.layers import LABELS, LayerSwitch
+from app.viewer.live_scene import LiveScene
 from app.viewer.moment_scene import MomentScene
 from app.viewer.palette import Colour
 from app.viewer.picking import region_outline
@@ -42,6 +43,7 @@ class TabScene:
         self.layers = LayerSwitch(self._canvas)
         self.belief = BeliefScene(client, self._canvas)
         self.moment = MomentScene(self._canvas)
+        self.live = LiveScene(client, self._canvas)
         self._sky = client.scene.add_light_hemisphere(
             "/lights/sky", sky_color=(255, 255, 255), ground_color=(186, 194, 214), intensity=2.0
         )

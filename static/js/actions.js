@@ -1,6 +1,7 @@
 // What a person does, and what the page does about it: the API is asked, the store is set.
 import { api } from "./api.js";
 import { confirmDialog } from "./dialogs.js";
+import { leaveSession, showSession } from "./live.js";
 import { askRing } from "./panels/ring_dialog.js";
 import { showLocalizations } from "./panels/localization_actions.js";
 import { announce } from "./panels/edit_actions.js";
@@ -14,9 +15,10 @@ let stopFollowing = null;
 
 export async function refreshLists() {
   try {
-    const [logs, models] = await Promise.all([api.logs(), api.models()]);
-    const { logs: oldLogs, models: oldModels } = get();
-    set({ logs: same(oldLogs, logs), models: same(oldModels, models), offline: false });
+    const [logs, models, sessions] = await Promise.all([api.logs(), api.models(), api.lives()]);
+    const { logs: oldLogs, models: oldModels, lives: oldLives } = get();
+    const lives = sessions.filter((session) => session.status !== "ended");
+    set({ logs: same(oldLogs, logs), models: same(oldModels, models), lives: same(oldLives, lives), offline: false });
   } catch (error) {
     if (error.status === 0) set({ offline: true });
     else showError(error);
@@ -32,7 +34,9 @@ export async function showRoute(route) {
   stopFollowing?.();
   stopFollowing = null;
   set({ job: null });
+  leaveSession();
   if (route.page === "log") await showLog(route.id);
+  else if (route.page === "live") await showSession(route.id);
   else if (route.page === "model") await showModel(route.id);
   else set({ log: null, model: null });
   await showLocalizations(get().route);
@@ -90,10 +94,11 @@ export function takeLabels(labels) {
 }
 
 export async function reloadModel() {
-  const { route } = get();
-  if (route.page !== "model") return;
+  const { route, live } = get();
+  const id = route.page === "live" ? live?.model_id : route.page === "model" && route.id;
+  if (!id) return;
   await attempt(async () => {
-    const model = await api.model(route.id);
+    const model = await api.model(id);
     if (get().route.id === route.id) set({ model });
   });
 }

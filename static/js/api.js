@@ -40,6 +40,8 @@ const id = encodeURIComponent;
 /** Addresses of files to take away, and of the picture of a model's grid. */
 export const files = {
   log: (log) => `api/logs/${id(log)}/file`,
+  liveLog: (live) => `api/live/${id(live)}/log`,
+  liveEvents: (live) => new URL(`api/live/${id(live)}/events`, document.baseURI).href.replace(/^http/, "ws"),
   folder: (model) => `api/models/${id(model)}/folder.zip`,
   grid: (model, revision) => `api/models/${id(model)}/grid.png?v=${revision}`,
 };
@@ -66,6 +68,16 @@ export const api = {
   localizationSteps: (localization) => request("GET", `api/localizations/${id(localization)}/steps`),
   localize: (body) => request("POST", "api/localizations", body),
   deleteLocalization: (localization) => request("DELETE", `api/localizations/${id(localization)}`),
+  lives: () => request("GET", "api/live"),
+  live: (live) => request("GET", `api/live/${id(live)}`),
+  finishLive: (live) => request("DELETE", `api/live/${id(live)}`),
+  saveLive: (live) => request("POST", `api/live/${id(live)}/models`),
+  robots: () => request("GET", "api/robots"),
+  robot: (robot) => request("GET", `api/robots/${id(robot)}`),
+  robotChoices: () => request("GET", "api/robots/choices"),
+  makeRobot: (order) => request("POST", "api/robots", order),
+  tellRobot: (robot, command) => request("POST", `api/robots/${id(robot)}/commands`, command),
+  removeRobot: (robot) => request("DELETE", `api/robots/${id(robot)}`),
   job: (job) => request("GET", `api/jobs/${id(job)}`),
   cancelJob: (job) => request("DELETE", `api/jobs/${id(job)}`),
 };

@@ -1,10 +1,13 @@
 // Puts the page together.
 import { refreshLists, reloadModel, showRoute, takeLabels, upload } from "./actions.js";
+import { takeSpan, watchWhatDrives } from "./live.js";
 import { details } from "./panels/details.js";
 import { redo, undo } from "./panels/edit_actions.js";
 import { startCut, stopCut } from "./panels/edit_cut.js";
 import { startGrowthPlayer } from "./panels/growth_player.js";
 import { layers } from "./panels/layers.js";
+import { driveByKey, startDriving } from "./panels/live_driving.js";
+import { picked, stopPicking } from "./panels/live_robot.js";
 import { startLocalizationPlayer } from "./panels/localization_player.js";
 import { goTo, isOpen, playPause, step } from "./panels/player.js";
 import { playerControls } from "./panels/player_controls.js";
@@ -34,10 +37,14 @@ playerControls(byId("player"));
 startLocalizationPlayer();
 startGrowthPlayer();
 startSecondView();
+startDriving();
 
 onView({
   onLabels: takeLabels,
   onChanged: reloadModel,
+  onPicked: picked,
+  onTrack: takeSpan,
+  onDrive: driveByKey,
   onSelected: (node) => document.querySelector(`tr[data-node="${CSS.escape(node ?? "")}"]`)?.scrollIntoView({ block: "nearest" }),
   onDeleted: () => {
     toast("This model was deleted.", { kind: "error" });
@@ -68,7 +75,8 @@ shortcut("[", "hide or show the left column", toggleSide("left"));
 shortcut("]", "hide or show the right column", toggleSide("right"));
 shortcut("?", "this help", helpDialog);
 shortcut("Escape", "end measuring, select nothing", () => {
-  if (get().cutting) stopCut();
+  if (get().picking) stopPicking();
+  else if (get().cutting) stopCut();
   else if (get().measuring) measure(false);
   else select(null);
 });
@@ -77,5 +85,6 @@ startShortcuts();
 acceptDrops(upload);
 startRouter(showRoute);
 refreshLists();
+watchWhatDrives();
 setInterval(() => document.visibilityState === "visible" && refreshLists(), REFRESH_MS);
 addEventListener("focus", refreshLists);

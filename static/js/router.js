@@ -1,13 +1,15 @@
 // Addresses that can be sent to somebody: #/models/ID, #/models/ID/localizations/LID, #/models/ID/growth,
-// #/models/ID/compare/OTHER, #/logs/ID, #/.
+// #/models/ID/compare/OTHER, #/logs/ID, #/live/ID, #/.
 import { set } from "./store.js";
 
 export function parse(hash) {
   const [, log] = hash.match(/^#\/logs\/([^/]+)$/) ?? [];
+  const [, live] = hash.match(/^#\/live\/([^/]+)$/) ?? [];
   const [, model, more, localization, other] = hash.match(/^#\/models\/([^/]+)(\/localizations\/([^/]+)|\/compare\/([^/]+)|\/growth)?$/) ?? [];
   const home = { page: "home", id: null, localization: null, growth: false, compare: null };
   try {
     if (log) return { ...home, page: "log", id: decodeURIComponent(log) };
+    if (live) return { ...home, page: "live", id: decodeURIComponent(live) };
     if (!model) return home;
     return {
       page: "model",
@@ -27,6 +29,7 @@ export const link = {
   compare: (model, other) => `${link.model(model)}/compare/${encodeURIComponent(other)}`,
   growth: (model) => `${link.model(model)}/growth`,
   localization: (model, id) => `${link.model(model)}/localizations/${encodeURIComponent(id)}`,
+  live: (id) => `#/live/${encodeURIComponent(id)}`,
   log: (id) => `#/logs/${encodeURIComponent(id)}`,
 };
 

@@ -26,6 +26,15 @@ const state = {
   connection: "none", // none | connecting | ready | lost
   measuring: false,
   measured: null, // {points, distance_m}
+  lives: null, // live sessions that have not ended
+  live: null, // the one that is shown
+  robot: null, // the simulated robot that feeds it, if one does
+  livePose: null, // its last pose event
+  liveBelief: null, // its last belief event
+  liveBehind: 0, // seconds that its last step had to wait
+  liveMapped: null, // session's time (s) until which the model knows the drive
+  liveView: { follow: false, paused: false, at: null }, // how it is drawn; `at`: seconds, null = now
+  picking: null, // what the next click in the map is for: {kind, text, name}
   uploads: [], // {id, name, share, error}
   offline: false,
 };

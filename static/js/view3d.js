@@ -14,10 +14,11 @@ export const SHARPNESS = /^\?fixedDpr=[\d.]+$/.test(location.search) ? location.
 let current = null; // {model, socket, frame, tries, timer}
 let belief = null; // what is played
 let moment = null; // {step, decision} of the drive that is shown instead of the finished model
+let drives = false; // whether the camera's keys drive a robot
 const handlers = {};
 const connected = new Set();
 
-/** Hears what the view says: onLabels, onSelected, onChanged, onDeleted. */
+/** Hears what the view says: onLabels, onSelected, onChanged, onDeleted, onPicked, onTrack, onDrive. */
 export function onView(events) {
   Object.assign(handlers, events);
 }
@@ -107,6 +108,23 @@ export function showMoment(next) {
   sendKeys();
 }
 
+/** How a live session is drawn: {follow, paused, at}. */
+export function showLive(liveView) {
+  set({ liveView });
+  tell({ type: "live", ...liveView });
+}
+
+/** Whether the next clicks are places on the floor, told to onPicked. */
+export function pick(on) {
+  tell({ type: "pick", on });
+}
+
+/** Whether the keys W A S D and the arrows drive a robot, not the camera; told to onDrive. */
+export function driveKeys(on) {
+  drives = on;
+  sendKeys();
+}
+
 function connect(view) {
   const socket = new WebSocket(new URL(
     `view/${encodeURIComponent(view.model)}/events?tab=${tabToken()}`, document.baseURI,
@@ -117,6 +135,8 @@ function connect(view) {
     tell({ type: "theme", theme: theme() });
     tell({ type: "playback", belief });
     if (moment) tell({ type: "moment", ...moment });
+    tell({ type: "live", ...get().liveView });
+    tell({ type: "pick", on: get().picking !== null });
     sendHeight();
     for (const callback of connected) callback();
   };
@@ -153,6 +173,12 @@ function hear(message) {
     case "camera":
       set({ view: message.view });
       break;
+    case "picked":
+      handlers.onPicked?.(message);
+      break;
+    case "track":
+      handlers.onTrack?.(message);
+      break;
     case "measured":
       set({ measured: message });
       break;
@@ -181,7 +207,7 @@ function sendTheme() {
 
 /** While something is played, the arrows left and right are the player's, not the camera's. */
 function sendKeys() {
-  current?.frame.contentWindow?.postMessage({ type: "keys", player: belief !== null || moment !== null }, location.origin);
+  current?.frame.contentWindow?.postMessage({ type: "keys", player: belief !== null || moment !== null, drives }, location.origin);
 }
 
 function sendHeight() {
@@ -212,6 +238,7 @@ export function tabToken() {
 addEventListener("resize", () => sendHeight());
 addEventListener("message", (event) => {
   if (event.origin !== location.origin || event.source !== current?.frame.contentWindow) return;
+  if (event.data?.type === "drive") handlers.onDrive?.(String(event.data.key), event.data.down === true);
   if (event.data?.type === "key") {
     press({ key: String(event.data.key), ctrlKey: event.data.ctrl, metaKey: event.data.meta, altKey: event.data.alt, shiftKey: event.data.shift, target: null });
   }

@@ -42,14 +42,25 @@
 
   // The page around us owns the theme and the shortcuts.
   let plays = false;
+  let drives = false;
   window.addEventListener("message", (event) => {
     if (event.origin !== window.location.origin || event.source !== parent) return;
     if (event.data?.type === "theme") root.dataset.theme = event.data.theme === "dark" ? "dark" : "light";
-    if (event.data?.type === "keys") plays = event.data.player === true;
+    if (event.data?.type === "keys") [plays, drives] = [event.data.player === true, event.data.drives === true];
   });
   const cameraKeys = new Set(["w", "a", "s", "d", "q", "e", "arrowup", "arrowdown", "arrowleft", "arrowright"]);
   const playerKeys = new Set(["arrowleft", "arrowright"]);
+  const driveKeys = new Set(["w", "a", "s", "d", "arrowup", "arrowdown", "arrowleft", "arrowright"]);
+  const drive = (event) => {
+    if (!drives || event.ctrlKey || event.metaKey || event.altKey || !driveKeys.has(event.key.toLowerCase())) return false;
+    event.preventDefault();
+    event.stopImmediatePropagation();
+    parent.postMessage({ type: "drive", key: event.key, down: event.type === "keydown" }, window.location.origin);
+    return true;
+  };
+  window.addEventListener("keyup", drive, true);
   window.addEventListener("keydown", (event) => {
+    if (drive(event)) return;
     if (plays && playerKeys.has(event.key.toLowerCase())) event.stopImmediatePropagation();
     else if (cameraKeys.has(event.key.toLowerCase()) && !event.ctrlKey && !event.metaKey) return;
     if (event.key === "k" && (event.ctrlKey || event.metaKey)) event.stopImmediatePropagation();

@@ -5,6 +5,7 @@ import { comparePanel } from "./compare_panel.js";
 import { convexityChart } from "./convexity_chart.js";
 import { editHistory } from "./edit_history.js";
 import { growthPanel } from "./growth_panel.js";
+import { livePanel } from "./live_panel.js";
 import { localizationList } from "./localization_list.js";
 import { localizationPanel } from "./localization_panel.js";
 import { modelFacts } from "./model_facts.js";
@@ -19,7 +20,8 @@ export function details(root) {
   const localizations = h("section", { class: "localizations" });
   const convexity = h("section", {});
   const facts = h("section", {});
-  const rooms = h("div", { class: "stack" }, table, chosen, localizations, convexity, facts);
+  const live = h("section", { class: "live" });
+  const rooms = h("div", { class: "stack" }, live, table, chosen, localizations, convexity, facts);
   const played = h("div", { class: "stack localization" });
   const grew = h("div", { class: "stack growth" });
   const form = h("div", { class: "stack" });
@@ -35,9 +37,14 @@ export function details(root) {
   localizationPanel(played);
   growthPanel(grew);
   comparePanel(compared);
-  watch(["route", "log", "model"], () => {
+  livePanel(live);
+  watch(["route", "log", "model", "live"], () => {
     const { log, model, route } = get();
-    const showsRooms = route.page === "model" && model?.status === "done";
+    const isLive = route.page === "live" && get().live !== null;
+    const showsRooms = isLive || (route.page === "model" && model?.status === "done");
+    live.hidden = !isLive;
+    facts.hidden = localizations.hidden = convexity.hidden = isLive;
+    table.hidden = chosen.hidden = isLive && !model?.nodes?.length;
     const showsForm = route.page === "log" && log !== null;
     rooms.hidden = !showsRooms || route.localization !== null || route.growth || route.compare !== null;
     grew.hidden = !showsRooms || !route.growth;

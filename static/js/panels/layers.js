@@ -13,9 +13,11 @@ const LAYERS = [
   ["labels", "labels", "names"],
   ["trajectory", "trajectory", "where the robot drove"],
   ["bars", "bars", "probabilities"],
-  ["robot", "robot", "the robot, its local map and the candidates"],
+  ["robot", "robot", "the robot, its way, its local map and the candidates"],
+  ["beams", "beams", "sonar beams of a live robot"],
 ];
 const PLAYED = new Set(["bars", "robot"]);
+const LIVE = new Set(["bars", "robot", "beams"]);
 
 export function layers(root) {
   const boxes = new Map(LAYERS.map(([name, text, tip]) => {
@@ -28,7 +30,8 @@ export function layers(root) {
   watch(["layers", "connection", "route"], (state) => {
     section.hidden = state.connection === "none" || state.route.growth;
     for (const [name, { box, label }] of boxes) {
-      label.hidden = !(name in state.layers) || (PLAYED.has(name) && !state.route.localization);
+      const here = state.route.page === "live" || (PLAYED.has(name) && state.route.localization);
+      label.hidden = !(name in state.layers) || (LIVE.has(name) && !here);
       box.checked = Boolean(state.layers[name]);
     }
   });

@@ -5,6 +5,7 @@ import { upload } from "../actions.js";
 import { link } from "../router.js";
 import { get, watch } from "../store.js";
 import { libraryItem } from "./library_item.js";
+import { startDialog } from "./live_dialog.js";
 
 const STATUS = { queued: "waiting", running: "being made", failed: "failed", cancelled: "cancelled" };
 
@@ -21,18 +22,21 @@ export function library(root) {
     upload([...chooser.files]);
     chooser.value = "";
   } });
+  const lives = section("Live");
+  lives.element.querySelector("h2").append(h("button", { type: "button", class: "link-button section-button", onclick: startDialog }, "Start…"));
   const models = section("Models");
   const logs = section("Logs");
   const uploads = h("ul", { class: "uploads", "aria-label": "Uploads", "aria-live": "polite" });
   replace(root,
     h("div", { class: "search" }, icon("search"), search),
-    models.element, logs.element, uploads,
+    lives.element, models.element, logs.element, uploads,
     h("button", { type: "button", class: "drop-zone", id: "upload", onclick: () => chooser.click() },
       icon("upload"), h("strong", {}, "Upload a log"), h("span", {}, "drop files anywhere, or click")),
     chooser,
   );
 
-  const draw = ({ models: allModels, logs: allLogs, route }) => {
+  const draw = ({ models: allModels, logs: allLogs, lives: allLives, route }) => {
+    fill(lives, allLives, (live) => matches(words, live.name), "No robot is driving.", (live) => liveItem(live, route));
     fill(models, allModels, (model) => matches(words, model.name, ...model.labels), "No model yet. Open a log to make one.", (model) => libraryItem({
       kind: "model", item: model, current: route.page === "model" && route.id === model.id, href: link.model(model.id),
       facts: STATUS[model.status] ?? `${count(model.node_count, "region")} · ${bytes(model.size_bytes)}`,
@@ -43,8 +47,16 @@ export function library(root) {
       facts: `${duration(log.duration_s)} · ${log.distance_m.toFixed(0)} m · ${bytes(log.size_bytes)}`,
     }));
   };
-  watch(["models", "logs", "route"], draw);
+  watch(["models", "logs", "lives", "route"], draw);
   watch(["uploads"], (state) => replace(uploads, state.uploads.map(uploadItem)));
+}
+
+function liveItem(live, route) {
+  const current = route.page === "live" && route.id === live.id;
+  const doing = live.status === "finishing" ? "is being finished" : live.mode === "mapping" ? "is mapping" : "is localizing";
+  return h("li", { class: current ? "item current" : "item", dataset: { item: `live:${live.id}`, state: "running" } },
+    h("a", { href: link.live(live.id), "aria-current": current ? "page" : null, title: live.name },
+      h("span", { class: "item-name" }, live.name), h("span", { class: "item-facts" }, `${doing} · ${count(live.stored, "scan")}`)));
 }
 
 export function chooseFiles() {

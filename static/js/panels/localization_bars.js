@@ -5,7 +5,7 @@ import { get, watch } from "../store.js";
 import { select } from "../view3d.js";
 import { currentStep } from "./localization_player.js";
 
-const UNKNOWN = "unknown: nowhere in this map";
+export const UNKNOWN = "unknown: nowhere in this map";
 const GONE = "no longer in the model";
 
 export function localizationBars(root) {
@@ -21,7 +21,7 @@ export function localizationBars(root) {
     if (list.dataset.key !== key) {
       list.dataset.key = key;
       rows.clear();
-      for (const id of keys) rows.set(id, bar(id));
+      for (const id of keys) rows.set(id, probabilityBar(id));
       replace(list, keys.map((id) => rows.get(id).element));
     }
     const most = mostProbable(step);
@@ -49,7 +49,8 @@ export function mostProbable(step) {
   return best;
 }
 
-function bar(id) {
+/** One line: `element`, and `update(text, share, colour, isBest, isSelected)`. */
+export function probabilityBar(id) {
   const own = id !== UNKNOWN && id !== GONE;
   const swatch = h("span", { class: "swatch" });
   const name = h("span", { class: "bar-name" });

@@ -6,6 +6,7 @@ import { closeView, openView } from "../view3d.js";
 import { cutStrip } from "./edit_cut.js";
 import { failedCard, jobCard } from "./job_card.js";
 import { logReport } from "./log_report.js";
+import { liveStrip, pickStrip } from "./live_strip.js";
 import { viewOverlay } from "./view_overlay.js";
 import { welcome } from "./welcome.js";
 
@@ -16,15 +17,17 @@ export function stage(root) {
   replace(root, page, view);
   viewOverlay(view);
   cutStrip(view);
-  watch(["route", "log", "model", "job", "logs", "models"], () => {
+  pickStrip(view);
+  liveStrip(view);
+  watch(["route", "log", "model", "job", "logs", "models", "live", "lives"], () => {
     const content = choose(get());
     const shows3d = content === "3d";
     page.hidden = shows3d;
     view.hidden = !shows3d;
-    const { model, models, route } = get();
+    const { models, route } = get();
     const other = shows3d && models?.some((item) => item.id === route.compare) ? route.compare : null;
     view.classList.toggle("two", other !== null);
-    if (shows3d) openView(model.id, view);
+    if (shows3d) openView(route.id, view);
     else {
       closeView();
       show(page, content);
@@ -48,8 +51,9 @@ function choose(state) {
     }
     return { key: `failed:${model.id}:${model.status}`, draw: () => failedCard(model) };
   }
+  if (route.page === "live") return state.live ? "3d" : loading();
   if (state.logs === null || state.models === null) return loading();
-  return { key: `home:${state.logs.length}:${state.models.length}`, draw: () => welcome(state) };
+  return { key: `home:${state.logs.length}:${state.models.length}:${(state.lives ?? []).map((live) => live.id).join(":")}`, draw: () => welcome(state) };
 }
 
 function loading() {

@@ -36,8 +36,8 @@ export function topbar(root) {
   onTheme((theme) => replace(themeBox, iconButton(
     theme === "dark" ? "sun" : "moon", theme === "dark" ? "Light theme (T)" : "Dark theme (T)", toggleTheme,
   )));
-  watch(["model", "log", "view", "connection", "measuring", "offline"], (state) => {
-    const shown = state.model ?? state.log;
+  watch(["model", "log", "live", "view", "connection", "measuring", "offline"], (state) => {
+    const shown = state.live ?? state.model ?? state.log;
     replace(title, shown?.name ?? "");
     document.title = shown ? `${shown.name} – EchoRooms` : "EchoRooms";
     tools.hidden = state.connection === "none";

@@ -4,15 +4,18 @@ import { h, icon } from "../dom.js";
 import { count, when } from "../format.js";
 import { link } from "../router.js";
 import { chooseFiles } from "./library.js";
+import { startDialog } from "./live_dialog.js";
 
-export function welcome({ logs, models }) {
+export function welcome({ logs, models, lives }) {
   return h("article", { class: "welcome" },
     h("img", { src: "logo.svg", alt: "", width: 56, height: 56 }),
     h("h2", {}, models.length || logs.length ? "Welcome back" : "From sonar to named rooms"),
     h("p", { class: "lead" }, lead(logs, models)),
+    lives?.length ? driving(lives) : null,
     models.length ? recent(models) : null,
     !models.length && logs.length ? h("p", {}, h("a", { class: "button button-primary", href: link.log(logs[0].id) }, `Open “${logs[0].name}”`)) : null,
     !logs.length && h("button", { type: "button", class: "button button-primary button-large", onclick: chooseFiles }, icon("upload"), "Upload a log"),
+    !lives?.length && h("p", {}, h("button", { type: "button", class: "button", onclick: startDialog }, icon("waves"), "Drive a simulated robot")),
     !models.length && steps(),
     h("p", { class: "muted" }, "New here? ", h("a", { href: "docs/index.html#getting-started", target: "_blank", rel: "noopener" }, "Getting started"), " takes five minutes. Press ", h("kbd", {}, "?"), " for help and keys."),
   );
@@ -22,6 +25,11 @@ function lead(logs, models) {
   if (models.length) return "Open a model to see its rooms, or upload another log.";
   if (logs.length) return "A log is here. Open it, read its report, and make a model of it.";
   return "EchoRooms turns the log of a robot with cheap sonars into a map, cuts the map into rooms, and lets you name them.";
+}
+
+function driving(lives) {
+  return h("ul", { class: "driving", "aria-label": "Robots that drive now" }, lives.map((live) => h("li", {}, h("a", { class: "button button-primary", href: link.live(live.id) },
+    h("span", { class: "dot", dataset: { kind: "busy" } }), `Watch “${live.name}”`))));
 }
 
 function recent(models) {

@@ -19,6 +19,7 @@ from starlette.websockets import WebSocketDisconnect
 from app.cli import run
 from app.live.recording import Recording
 from app.live.robot_client import RobotClient
+from app.live.session import MOST_TOLD
 from core.log_readers import read_log
 
 MakeLog = Callable[..., bytes]
@@ -123,11 +124,11 @@ def test_a_finished_session_is_the_log_that_was_streamed_and_its_model(
     path = f"/api/live/{session['id']}"
     with socket_to(client, f"{path}/events") as page:
         client.post(f"{path}/scans", json=scans)
-        assert page.receive_json() == {
-            "type": "pose",
-            "t": scans[-1]["t"],
-            "pose": scans[-1]["odom"],
-        }
+        told = [page.receive_json() for _ in range(MOST_TOLD)]
+        assert {event["type"] for event in told} == {"pose"}
+        assert [event["t"] for event in told] == [scan["t"] for scan in scans[-MOST_TOLD:]]
+        assert (told[-1]["pose"], told[-1]["ranges"]) == (scans[-1]["odom"], scans[-1]["ranges"])
+        assert told[-1]["stored"] == len(scans)
         assert client.delete(path).status_code == 202
         kinds = []
         while not kinds or kinds[-1] != "ended":

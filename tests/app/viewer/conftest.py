@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+import httpx
 import msgspec
 import numpy as np
 import pytest
@@ -109,6 +110,11 @@ class ViewServer:
             return function(*args)
 
         return asyncio.run_coroutine_threadsafe(run(), self.loop).result(PATIENCE)
+
+    @property
+    def http(self) -> httpx.Client:
+        """A client of its pages and its API."""
+        return httpx.Client(base_url=f"http://127.0.0.1:{self.port}", timeout=PATIENCE)
 
     def url(self, path: str) -> str:
         """The WebSocket URL of a path."""
@@ -227,9 +233,10 @@ def label(text: str) -> Callable[[dict[str, Any]], bool]:
 
 
 @pytest.fixture
-def serve_views(two_rooms: Model) -> Iterator[Callable[..., ViewServer]]:
+def serve_views(
+    two_rooms: Model, serve_app: Callable[[FastAPI], ViewServer]
+) -> Callable[..., ViewServer]:
     """Starts servers that show the two rooms as model "m1"; they end with the test."""
-    running: list[tuple[uvicorn.Server, threading.Thread]] = []
 
     def start(config: HubConfig | None = None) -> ViewServer:
         models = {"m1": two_rooms}
@@ -239,6 +246,17 @@ def serve_views(two_rooms: Model) -> Iterator[Callable[..., ViewServer]]:
         install_error_handlers(app)
         attach(app, models.get, app.state.events, settings, config)
         app.add_middleware(BrowserGuard, settings=settings)
+        return replace(serve_app(app), models=models)
+
+    return start
+
+
+@pytest.fixture
+def serve_app() -> Iterator[Callable[[FastAPI], ViewServer]]:
+    """Serves apps on ports of their own until the test ends."""
+    running: list[tuple[uvicorn.Server, threading.Thread]] = []
+
+    def start(app: FastAPI) -> ViewServer:
         listener = socket.create_server(("127.0.0.1", 0))
         server = uvicorn.Server(
             uvicorn.Config(
@@ -256,7 +274,7 @@ def serve_views(two_rooms: Model) -> Iterator[Callable[..., ViewServer]]:
         running.append((server, thread))
         while not server.started:
             time.sleep(0.01)
-        return ViewServer(listener.getsockname()[1], app, loops[0], models)
+        return ViewServer(listener.getsockname()[1], app, loops[0])
 
     yield start
     for server, thread in running:
