@@ -12,6 +12,7 @@ from scipy.spatial import ConvexHull
 from app.viewer.cell_tiles import Tiles, cell_tiles
 from app.viewer.contour_mesh import Extrusion, extrude
 from app.viewer.display_grid import DisplayGrid, tidy
+from app.viewer.drift_drawing import DriftDrawing, draw_drift
 from app.viewer.floor_image import (
     DARK,
     LIGHT,
@@ -86,6 +87,7 @@ class Drawing:
         doors: (E, 3).
         moments: the steps of the drive that made the model, each with its decisions.
         step_pictures: what each of them looked like.
+        drift: the drive before and after its correction; None where that was not kept.
     """
 
     geometry: GridGeometry
@@ -107,6 +109,7 @@ class Drawing:
     furniture_height: float
     moments: Sequence[Mapping[str, Any]] = ()
     step_pictures: Sequence[bytes] = ()
+    drift: DriftDrawing | None = None
 
 
 def draw(
@@ -167,6 +170,7 @@ def draw(
         furniture_height=config.furniture_height,
         moments=moments(model.history),
         step_pictures=model.timeline,
+        drift=draw_drift(model),
     )
 
 

@@ -14,6 +14,8 @@ from app.viewer.canvas import Canvas
 GRID, REGIONS, WALLS, CELLS = "grid", "regions", "walls", "cells"
 GRAPH, LABELS, PATH, BARS, ROBOT = "graph", "labels", "trajectory", "bars", "robot"
 BEAMS = "beams"
+DRIFT_MAPS, ODOMETRY_PATH, CORRECTED_PATH, CLOSURES = "maps", "odometry", "corrected", "closures"
+"""Of the drift, which is shown instead of the model."""
 
 DEFAULT_LAYERS: Mapping[str, bool] = {
     GRID: True,
@@ -26,6 +28,10 @@ DEFAULT_LAYERS: Mapping[str, bool] = {
     BARS: True,
     ROBOT: True,
     BEAMS: True,
+    DRIFT_MAPS: True,
+    ODOMETRY_PATH: True,
+    CORRECTED_PATH: True,
+    CLOSURES: True,
 }
 """Every layer, in the order of the page, and whether it is shown at first."""
 

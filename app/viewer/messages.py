@@ -89,6 +89,19 @@ class Moment(_Message):
     """Which tentative part of that step is looked at."""
 
 
+class Drift(_Message):
+    """Page -> view: show the drive before and after its correction instead of the model, or end it."""
+
+    type: Literal["drift"]
+    on: bool
+    share: Share = 1.0
+    """0: at the odometry, 1: corrected, between: on the way."""
+    closure: str | None = Field(None, max_length=64)
+    """Id of the closure that is looked at."""
+    places: tuple[Annotated[float, Field(allow_inf_nan=False)], ...] = Field((), max_length=2)
+    """Times (s) of places of the drive that are marked."""
+
+
 class Beside(_Message):
     """Page -> view: another model is shown beside this one, with the same camera (null: none)."""
 
@@ -121,6 +134,7 @@ FromPage = Annotated[
     | Viewport
     | Playback
     | Moment
+    | Drift
     | Beside
     | Live
     | Pick,
@@ -198,6 +212,16 @@ class Track(_Message):
     last_t: float | None
 
 
+class Pointed(_Message):
+    """View -> page: a click on the floor while the drift is shown; `t` (s): the drive's nearest place,
+    `away_m` from it."""
+
+    type: Literal["pointed"] = "pointed"
+    point: tuple[float, float]
+    t: float
+    away_m: float
+
+
 class CameraView(_Message):
     """View -> page: which of the standard views the camera was sent to."""
 
@@ -213,6 +237,7 @@ ToPage = (
     | ModelChanged
     | ModelDeleted
     | Measured
+    | Pointed
     | CameraView
     | Picked
     | Track

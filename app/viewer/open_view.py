@@ -206,4 +206,5 @@ def _same_drawing(old: Model, new: Model) -> bool:
         shape_of(old) == shape_of(new)
         and np.array_equal(old.grid.state, new.grid.state)
         and np.array_equal(old.regions, new.regions)
+        and old.drift == new.drift
     )

@@ -12,6 +12,7 @@ import viser
 from app.viewer.camera import View
 from app.viewer.camera_link import CameraLink
 from app.viewer.drawing import Drawing, NodeMark
+from app.viewer.drift_playback import DriftPlayback
 from app.viewer.layers import DEFAULT_LAYERS
 from app.viewer.live_show import LiveShow
 from app.viewer.live_track import LiveTrack
@@ -19,6 +20,7 @@ from app.viewer.mailbox import Mailbox
 from app.viewer.messages import (
     Camera,
     CameraView,
+    Drift,
     FromPage,
     Layers,
     Live,
@@ -75,6 +77,7 @@ class Tab:
         self.last_used = time.monotonic()
         self.playback = PlaybackState()
         self.moment = MomentPlayback()
+        self.drift = DriftPlayback()
         self.camera_link = CameraLink(self._stand_as)
         self._fitted_at = 0.0
         self.camera = TabCamera(self._outline, self._declutter)
@@ -108,6 +111,7 @@ class Tab:
         self.scene.measure(state.points)
         self.playback.again(self.scene)
         self.moment.again(self.scene, state.theme)
+        self.drift.again(self.scene, state.theme)
         self._draw_live()
         self.camera.join(self.scene)
         self.tell_ready()
@@ -119,6 +123,7 @@ class Tab:
             self.camera.stop()
             self.playback.stop()
             self.moment.stop()
+            self.drift.stop()
             self.scene = None
             self.tell_ready()
 
@@ -134,6 +139,7 @@ class Tab:
             self.scene.select(self.state.selected, self.state.others)
             self.playback.again(self.scene, other_nodes=not _same_places(before, drawing.nodes))
             self.moment.again(self.scene, self.state.theme)
+            self.drift.again(self.scene, self.state.theme)
             if self.track is not None and not self.live.follow:
                 self.camera.fit_again(self.scene)
             self.camera_moved()
@@ -154,6 +160,7 @@ class Tab:
                 if self.scene is not None:
                     self.scene.wear(message.theme)
                     self.moment.again(self.scene, message.theme)
+                    self.drift.again(self.scene, message.theme)
             case Viewport():
                 self.state.picture_height = message.height
                 self.camera_moved()
@@ -165,6 +172,8 @@ class Tab:
                 self._show_live(message)
             case Pick():
                 self.state.picking = message.on
+            case Drift():
+                self._show_drift(message)
 
     def click(self, drawing: Drawing, origin: FloatArray, direction: FloatArray) -> None:
         """A click in the 3D view, as a ray in the world."""
@@ -177,6 +186,11 @@ class Tab:
             point = floor_point(origin, direction)
             if point is not None:
                 self._add_point(point)
+            return
+        if self.drift.shown and drawing.drift is not None:
+            point = floor_point(origin, direction)
+            if point is not None:
+                self.tell(self.drift.pointed(drawing.drift, point))
             return
         node = picked_node(drawing, origin, direction)
         if node != self.state.selected:
@@ -223,6 +237,7 @@ class Tab:
         self.camera.stop()
         self.playback.stop()
         self.moment.stop()
+        self.drift.stop()
         self.scene = None
         if self.mailbox is not None:
             self.mailbox.close()
@@ -240,8 +255,8 @@ class Tab:
             self.scene.layers.show(self._visible(known))
 
     def _visible(self, layers: dict[str, bool]) -> dict[str, bool]:
-        """What layers show now: those of the finished model are hidden while a moment is shown."""
-        hidden = FINISHED if self.moment.shown else ()
+        """What layers show now: those of the finished model are hidden while its past is shown."""
+        hidden = FINISHED if self.moment.shown or self.drift.shown else ()
         return {name: shown and name not in hidden for name, shown in layers.items()}
 
     def _show_moment(self, message: Moment) -> None:
@@ -251,6 +266,12 @@ class Tab:
             self.scene.layers.show(self._visible(self.state.layers))
             if self.camera.kept is None:
                 self._go("fit")
+
+    def _show_drift(self, message: Drift) -> None:
+        before = self.drift.shown
+        self.drift.show(message, self.scene, self.state.theme)
+        if before != self.drift.shown and self.scene is not None:
+            self.scene.layers.show(self._visible(self.state.layers))
 
     def _measure(self, on: bool) -> None:
         self.state.measuring = on

@@ -12,6 +12,7 @@ from app.viewer.belief_scene import BeliefScene
 from app.viewer.camera import View
 from app.viewer.canvas import LABEL_SCALE, Canvas
 from app.viewer.drawing import Drawing
+from app.viewer.drift_scene import DriftScene
 from app.viewer.graph_shapes import circle
 from app.viewer.label_layout import LabelBox, visible_labels
 from app.viewer.layers import LABELS, LayerSwitch
@@ -44,6 +45,7 @@ class TabScene:
         self.belief = BeliefScene(client, self._canvas)
         self.moment = MomentScene(self._canvas)
         self.live = LiveScene(client, self._canvas)
+        self.drift = DriftScene(self._canvas)
         self._sky = client.scene.add_light_hemisphere(
             "/lights/sky", sky_color=(255, 255, 255), ground_color=(186, 194, 214), intensity=2.0
         )
