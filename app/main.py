@@ -12,6 +12,7 @@ from fastapi import APIRouter, FastAPI
 from app.api import (
     comparisons,
     docs_page,
+    drift,
     edits,
     health,
     jobs,
@@ -69,6 +70,7 @@ def create_app(settings: Settings) -> FastAPI:
         comparisons.router,
         labels.router,
         edits.router,
+        drift.router,
         localizations.router,
         jobs.router,
         live.router,

@@ -12,6 +12,7 @@ from app.jobs.runner import STOPPED, JobRunner
 from app.jobs.worker_pool import WorkerPool
 from app.jobs.worker_process import TaskLimits
 from app.settings import MEBIBYTE, Settings
+from app.storage.calibration_store import CalibrationStore
 from app.storage.data_folder import DataFolder
 from app.storage.database import Database
 from app.storage.job_store import JobStore
@@ -31,6 +32,7 @@ class Services:
     logs: LogStore
     models: ModelStore
     localizations: LocalizationStore
+    calibrations: CalibrationStore
     jobs: JobStore
     samples: SampleStore
     runner: JobRunner
@@ -67,6 +69,7 @@ async def open_services(settings: Settings, events: ModelEvents) -> AsyncIterato
         LogStore(database, folder),
         ModelStore(database, folder, events),
         LocalizationStore(database, folder),
+        CalibrationStore(database),
         job_store,
         SampleStore(database),
         JobRunner(job_store, settings.max_jobs),

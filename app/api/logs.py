@@ -10,7 +10,7 @@ from fastapi.responses import FileResponse
 
 from app.api.dependencies import SearchQuery, ServicesDep, SortingDep
 from app.api.form_schema import file_part, form_body, text_part
-from app.api.schemas import LogDetail, LogSummary, NameBody
+from app.api.schemas import LogDetail, LogSummary, NameBody, RobotOdometry
 from app.api.upload_form import receive_form
 from app.jobs.reading import keep_log
 from app.services import Services
@@ -75,4 +75,9 @@ def delete_log(log_id: str, services: ServicesDep) -> None:
 
 def _detail(services: Services, record: LogRecord) -> LogDetail:
     summary = LogSummary.of(record)
-    return LogDetail(**summary.model_dump(), report=services.logs.report(record.id))
+    known = services.calibrations.get(services.logs.ring_of(record.id))
+    return LogDetail(
+        **summary.model_dump(),
+        report=services.logs.report(record.id),
+        robot=None if known is None else RobotOdometry.of(known),
+    )

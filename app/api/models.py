@@ -36,7 +36,12 @@ PROVENANCE_FILE = "provenance.json"
 async def create_model(body: ModelBody, services: ServicesDep) -> Accepted:
     """Begins to make a model; the job tells how far it is."""
     model, job = await model_a_log(
-        services, body.log_id, body.name, body.options(), body.labels_from
+        services,
+        body.log_id,
+        body.name,
+        body.options(),
+        body.labels_from,
+        known_robot=body.calibration == "robot",
     )
     return Accepted(id=model.id, job_id=job.id)
 

@@ -8,7 +8,8 @@ from typing import Annotated, Any, Literal
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
 
 from app.jobs.runner import JobView
-from app.storage.records import LogRecord, ModelRecord, Status
+from app.storage.records import CalibrationRecord, LogRecord, ModelRecord, Status
+from core.mapping.odometry_calibration import OdometryCalibration
 
 MAX_LABEL_LENGTH = 80
 MAX_NAME_LENGTH = 200
@@ -48,6 +49,10 @@ class LabelBody(Body):
     label: Label | None
 
 
+NOT_OPTIONS = {"log_id", "name", "labels_from", "calibration"}
+"""Fields of a model to be made that are not options of the modeller."""
+
+
 class ModelBody(Body):
     """A model to be made from a log."""
 
@@ -65,11 +70,16 @@ class ModelBody(Body):
     )
     mapping: Literal["cemal", "bayes"] = "cemal"
     odometry: Literal["raw", "calibrated", "corrected"] | None = None
+    calibration: Literal["robot"] | None = Field(
+        None,
+        description="robot: begin with what an earlier drive told of this robot's odometry (see "
+        "`robot` of the log)",
+    )
     resolution: float = Field(0.05, ge=0.02, le=0.5, description="metres per cell")
 
     def options(self) -> dict[str, Any]:
         """What `core.pipeline.modeller.ModellingOptions` takes."""
-        return self.model_dump(exclude={"log_id", "name", "labels_from"}, exclude_none=True)
+        return self.model_dump(exclude=NOT_OPTIONS, exclude_none=True)
 
     @model_validator(mode="after")
     def _possible(self) -> ModelBody:
@@ -125,10 +135,33 @@ class LogSummary(BaseModel):
         return cls(**{**vars(record), "created": moment(record.created)})
 
 
+class RobotOdometry(BaseModel):
+    """What is known of a robot's odometry; robots are told apart by their sonar rings."""
+
+    model_name: str = Field(description="the model whose drive told it")
+    kept: datetime
+    sentences: list[str]
+    calibration: dict[str, float]
+
+    @classmethod
+    def of(cls, record: CalibrationRecord) -> RobotOdometry:
+        """What is told of a stored calibration."""
+        found = dict(record.found)
+        return cls(
+            model_name=record.model_name,
+            kept=moment(record.kept),
+            sentences=list(OdometryCalibration(**found).sentences()),
+            calibration=found,
+        )
+
+
 class LogDetail(LogSummary):
     """A log with its report."""
 
     report: dict[str, Any]
+    robot: RobotOdometry | None = Field(
+        None, description="what an earlier drive told of this robot's odometry"
+    )
 
 
 class ModelSummary(BaseModel):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gzip
 import json
 import time
 from collections.abc import Mapping
@@ -105,6 +106,14 @@ class LogStore:
         path = self._place(log_id) / REPORT_FILE
         report: dict[str, Any] = json.loads(path.read_text(encoding="utf-8"))
         return report
+
+    def ring_of(self, log_id: str) -> str:
+        """The fingerprint of the sonar ring that the log was recorded with."""
+        from core.log_readers.native_line import parse_header
+
+        with gzip.open(self.native_file(log_id), "rt", encoding="utf-8") as file:
+            _, ring = parse_header(json.loads(file.readline()))
+        return ring.fingerprint
 
     def native_file(self, log_id: str) -> Path:
         """The log in the native format."""

@@ -44,7 +44,13 @@ _LOCALIZATIONS = (
     "CREATE INDEX localizations_of_log ON localizations (log_id)",
 )
 
-MIGRATIONS: tuple[tuple[str, ...], ...] = (_INITIAL, _LOCALIZATIONS)
+_CALIBRATIONS = (
+    """CREATE TABLE calibrations (
+        ring VARCHAR NOT NULL PRIMARY KEY, model_name VARCHAR NOT NULL, kept FLOAT NOT NULL,
+        found TEXT NOT NULL)""",
+)
+
+MIGRATIONS: tuple[tuple[str, ...], ...] = (_INITIAL, _LOCALIZATIONS, _CALIBRATIONS)
 
 
 def migrate(connection: Connection) -> None:

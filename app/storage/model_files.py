@@ -78,6 +78,19 @@ class ModelFiles:
         """Makes a finished folder the model; what was before cannot be brought back by undo."""
         self._add(model_id, prepared, EditHistory.begin(self.history(model_id)))
 
+    def remake(self, model_id: str, prepared: Path, what: str) -> None:
+        """Makes a finished folder the next revision; undo leads back to the one before.
+
+        Args:
+            what: was done, in words.
+        """
+        history = self.history(model_id)
+        if history is None:
+            self.renew(model_id, prepared)
+            return
+        _skip_numbers(prepared, [self._revision(model_id, step.folder) for step in history.future])
+        self._add(model_id, prepared, history.edited(what))
+
     def edit(self, model_id: str, history: EditHistory, edit: Edit) -> None:
         """Makes a revision that differs from the present one by an edit; all or nothing."""
         with self._folder.temporary() as temp:

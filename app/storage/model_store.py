@@ -125,6 +125,7 @@ class ModelStore:
         log_ids: Sequence[str],
         facts: Mapping[str, Any],
         labels_from: str | None = None,
+        edit: str | None = None,
     ) -> None:
         """Takes over a model folder that a worker has written, as the newest revision.
 
@@ -133,6 +134,7 @@ class ModelStore:
             facts: what `facts_of` tells of the folder.
             labels_from: the model whose labels, as they are now, go along by overlap; when it is
                 this very model, so do the ids of nodes, rooms and doorways.
+            edit: what was done in words, when undo is to lead back to the model before.
 
         Raises:
             NotFound: the model was deleted meanwhile.
@@ -146,7 +148,10 @@ class ModelStore:
                 carry = carry_identity if labels_from == model_id else carry_labels
                 carry(named, prepared)
                 facts = facts_of(prepared)
-            self._files.renew(model_id, prepared)
+            if edit is None:
+                self._files.renew(model_id, prepared)
+            else:
+                self._files.remake(model_id, prepared, edit)
             with self._database.write() as connection:
                 _link_logs(connection, model_id, log_ids)
             self._index(model_id, facts, status=Status.DONE, error=None, updated=time.time())

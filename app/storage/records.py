@@ -82,6 +82,23 @@ class LocalizationRecord:
 
 
 @dataclass(frozen=True)
+class CalibrationRecord:
+    """What is known of a robot's odometry.
+
+    Attributes:
+        ring: fingerprint of the robot's sonar ring.
+        model_name: the model whose drive told it.
+        kept: seconds since the epoch, UTC.
+        found: the fields of `core.mapping.odometry_calibration.OdometryCalibration`.
+    """
+
+    ring: str
+    model_name: str
+    kept: float
+    found: Mapping[str, float]
+
+
+@dataclass(frozen=True)
 class JobRecord:
     """A job. `subject_id` names what it makes: the model, say."""
 

@@ -74,5 +74,15 @@ jobs = Table(
     Column("finished", Float),
 )
 
+calibrations = Table(
+    "calibrations",
+    metadata,
+    Column("ring", String, primary_key=True),
+    Column("model_name", String, nullable=False),
+    Column("kept", Float, nullable=False),
+    Column("found", Text, nullable=False),
+)
+"""What is known of a robot's odometry, by the fingerprint of its sonar ring."""
+
 samples = Table("samples", metadata, Column("file_name", String, primary_key=True))
 """Sample logs that were loaded once: one that was deleted does not come back."""

@@ -18,7 +18,7 @@ import numpy as np
 
 from core.geometry import FloatArray, IntArray
 from core.mapping.drift_config import DriftConfig
-from core.mapping.drift_edits import DriftEdits, SaidLinks
+from core.mapping.drift_edits import DriftEdits
 from core.mapping.graph_terms import Link
 from core.mapping.loop_closure import Closure, close_loops
 from core.mapping.node_view import local_map, walls_at
@@ -27,6 +27,7 @@ from core.mapping.odometry_model import through_nodes, without_systematic_error
 from core.mapping.point_alignment import align
 from core.mapping.pose_graph import PoseGraph
 from core.mapping.reflection_points import path_length, reflection_points
+from core.mapping.said_links import SaidLinks
 from core.mapping.scan_matching import Submap
 from core.progress import Progress, no_progress
 from core.sensing.robot_log import RobotLog

@@ -72,7 +72,12 @@ class Closure:
     @property
     def id(self) -> str:
         """Names the closure: the milliseconds of its ends. The same in every correction of the drive."""
-        return f"c{round(1000 * self.t_source)}_{round(1000 * self.t_target)}"
+        return closure_id(self.t_source, self.t_target)
+
+
+def closure_id(t_source: float, t_target: float) -> str:
+    """The id of a closure between two times (s)."""
+    return f"c{round(1000 * t_source)}_{round(1000 * t_target)}"
 
 
 def close_loops(

@@ -249,6 +249,8 @@ def _findings(
         out.append(
             f"The map is made of the longest part, {log.t[part[0]]:.1f} s to {log.t[part[1] - 1]:.1f} s."
         )
+    if any(config.drift.noise.expected):
+        out.append("What an earlier drive told of this robot's odometry was taken into account.")
     out += result.calibration.sentences()
     accepted = sum(closure.accepted for closure in result.closures)
     out.append(

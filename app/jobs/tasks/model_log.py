@@ -9,6 +9,8 @@ from __future__ import annotations
 import functools
 from pathlib import Path
 
+from pydantic import TypeAdapter
+
 from app.jobs.tasks import Arguments, Result
 from app.storage.model_facts import facts_of
 from core.log_readers.registry import read_log
@@ -17,6 +19,7 @@ from core.progress import Progress, part_of
 from core.sensing.robot_log import join
 from core.topology.model_folder import write_model
 
+OPTIONS_JSON: TypeAdapter[ModellingOptions] = TypeAdapter(ModellingOptions)
 READING_SHARE, MODELLING_SHARE = 0.05, 0.95
 
 
@@ -27,7 +30,7 @@ def run(arguments: Arguments, progress: Progress) -> Result:
     logs = [read_log(Path(path)).log.without_truth() for path in arguments["inputs"]]
     model = model_log(
         functools.reduce(join, logs),
-        ModellingOptions(**arguments["options"]),
+        OPTIONS_JSON.validate_python(arguments["options"]),
         part_of(progress, READING_SHARE, MODELLING_SHARE),
     )
     progress(MODELLING_SHARE, "writing the model")
