@@ -17,10 +17,11 @@ import queue
 import sys
 import threading
 import time
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TextIO
 
-from app.jobs.tasks import load_task
+from app.jobs.tasks import Task, load_task
 from core.errors import EchoRoomsError, LogError, TooLargeError, UsageError
 
 PROGRESS_INTERVAL_S = 0.1
@@ -42,14 +43,23 @@ logger = logging.getLogger(__name__)
 
 
 def main() -> None:
-    """Serves tasks until the input ends."""
+    """Serves jobs' tasks."""
+    serve(load_task, list(HEAVY_MODULES) if "--warm" in sys.argv else [])
+
+
+def serve(load: Callable[[str], Task], ahead: list[str]) -> None:
+    """Serves tasks until the input ends.
+
+    Args:
+        load: the function of a task's name.
+        ahead: modules to import while there is nothing else to do.
+    """
     logging.basicConfig(format="%(levelname)s worker: %(message)s")
     with contextlib.suppress(AttributeError, OSError):
         os.nice(NICENESS)
     answers = _claim_stdout()
     requests: queue.Queue[dict[str, Any]] = queue.Queue()
     threading.Thread(target=_read_requests, args=(requests,), daemon=True).start()
-    ahead = list(HEAVY_MODULES) if "--warm" in sys.argv else []
     patience = IDLE_BEFORE_IMPORTS_S
     while True:
         try:
@@ -58,7 +68,7 @@ def main() -> None:
             patience = 0.0
             _import_ahead(ahead.pop(0))
         else:
-            _serve(request, answers)
+            _serve(request, load, answers)
 
 
 def _claim_stdout() -> TextIO:
@@ -81,13 +91,13 @@ def _import_ahead(name: str) -> None:
         logger.exception("cannot import %s", name)
 
 
-def _serve(request: dict[str, Any], answers: TextIO) -> None:
+def _serve(request: dict[str, Any], load: Callable[[str], Task], answers: TextIO) -> None:
     def send(answer: dict[str, Any]) -> None:
         answers.write(json.dumps(answer) + "\n")
         answers.flush()
 
     try:
-        task = load_task(request["task"])
+        task = load(request["task"])
         _limit_memory(request["memory_bytes"])
         send({"result": task(request["arguments"], _Reporter(send))})
     except EchoRoomsError as error:

@@ -50,9 +50,9 @@ class WorkerProcess:
         self.tasks_done = 0
 
     @classmethod
-    async def start(cls, warm: bool) -> WorkerProcess:
+    async def start(cls, warm: bool, module: str = "app.jobs.worker") -> WorkerProcess:
         """Starts a process; a warm one imports the heavy modules before it is asked to."""
-        command = [sys.executable, "-P", "-m", "app.jobs.worker", *(["--warm"] if warm else [])]
+        command = [sys.executable, "-P", "-m", module, *(["--warm"] if warm else [])]
         process = await asyncio.create_subprocess_exec(
             *command,
             stdin=asyncio.subprocess.PIPE,

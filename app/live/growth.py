@@ -1,113 +1,122 @@
-"""The model of a session grows: after every few metres a worker models what is recorded so far."""
+"""What a session's worker finds out goes to the model and to those who listen."""
 
 from __future__ import annotations
 
 import asyncio
-import json
+import contextlib
 import logging
 import time
 from pathlib import Path
 from typing import Any
 
 from app.live.session import LiveSession
+from app.live.workers import LiveWorkers
 from app.services import Services
+from app.storage.model_facts import TOPOLOGY_FILE, read_json
 from core.errors import EchoRoomsError
 
 logger = logging.getLogger(__name__)
-STEP_M = 2.5
-"""Metres of travel between two modelling or localization steps (paper, Sect. 4)."""
 BEHIND_S = 0.5
-"""A step that had to wait longer than this for a worker is reported."""
+"""Seconds between a scan and its place in the map from which on the session is behind."""
+PAUSE_AFTER_FAILURE_S = 2.0
 
 
 class Growth:
-    """Models or localizes one session, one step at a time; skips steps when workers are busy."""
+    """Lets a worker take in what one session records, as long as there is something new."""
 
-    def __init__(self, services: Services, session: LiveSession, slots: asyncio.Semaphore) -> None:
+    def __init__(self, services: Services, session: LiveSession, workers: LiveWorkers) -> None:
         self._services = services
         self._session = session
-        self._slots = slots
-        self._done_m = 0.0
-        self._step: asyncio.Task[None] | None = None
+        self._workers = workers
+        self._news = asyncio.Event()
+        self._since: float | None = None
+        self._was_behind = False
+        self._task = asyncio.create_task(self._grow(), name=f"grow {session.record.id}")
+        self.look()
 
     def look(self) -> None:
-        """Begins a step if the robot has come far enough and none is running."""
-        driven = self._session.recording.distance_m
-        if driven - self._done_m >= STEP_M and (self._step is None or self._step.done()):
-            self._done_m = driven
-            self._step = asyncio.create_task(self._take_step())
+        """There may be new scans."""
+        if self._since is None:
+            self._since = time.monotonic()
+        self._news.set()
 
     async def close(self) -> None:
-        """Stops the step that is running."""
-        if self._step is not None:
-            self._step.cancel()
-            await asyncio.wait([self._step])
+        """Stops; the worker forgets the session."""
+        self._task.cancel()
+        await asyncio.wait([self._task])
+        with contextlib.suppress(EchoRoomsError):
+            await self._workers.forget(self._session.record.id)
 
-    async def _take_step(self) -> None:
-        session, asked = self._session, time.monotonic()
-        try:
-            async with self._slots:
-                waited = time.monotonic() - asked
-                if waited > BEHIND_S:
-                    session.events.send({"type": "behind", "seconds": round(waited, 2)})
-                if session.record.mode == "mapping":
-                    await self._model()
-                else:
-                    await self._localize()
-        except EchoRoomsError as error:
-            logger.info("live session %s: step left out (%s)", session.record.id, error)
-        except Exception:
-            logger.exception("live session %s: step failed", session.record.id)
+    async def _grow(self) -> None:
+        while True:
+            await self._news.wait()
+            self._news.clear()
+            asked, self._since = self._since, None
+            try:
+                while await self._advance():
+                    self._tell_how_far_behind(asked)
+                self._tell_how_far_behind(asked)
+            except EchoRoomsError as error:
+                logger.warning("live session %s: %s", self._session.record.id, error)
+                await asyncio.sleep(PAUSE_AFTER_FAILURE_S)
+            except Exception:
+                logger.exception("live session %s: a step failed", self._session.record.id)
+                await asyncio.sleep(PAUSE_AFTER_FAILURE_S)
 
-    async def _model(self) -> None:
-        services, record, t = self._services, self._session.record, self._session.recording.last_t
+    async def _advance(self) -> bool:
+        """Takes in some scans; whether there are more."""
+        services, session = self._services, self._session
+        record = session.record
         with services.folder.temporary() as temp:
-            out = temp / "model"
             arguments = {
-                "inputs": [str(self._session.recording.path)],
-                "options": {},
-                "out": str(out),
+                "recording": str(session.recording.path),
+                "mode": record.mode,
+                "size": session.recording.size,
+                "out": str(temp / "model"),
             }
-            facts = await services.pool.run("model_log", arguments, services.job_limits)
-            publish = services.models.publish
-            await asyncio.to_thread(publish, record.model_id, out, [], facts, record.model_id)
-        revision = (await asyncio.to_thread(services.models.get, record.model_id)).revision
-        common = {"t": t, "model_id": record.model_id, "revision": revision}
+            if record.mode == "localization":
+                folder = await asyncio.to_thread(services.models.folder, record.model_id)
+                arguments["model"] = str(folder)
+            result = await self._workers.run(record.id, "advance", arguments)
+            if "frame" in result:
+                session.frame = result["frame"]
+            if result["scans"]:
+                taken_in = {"type": "taken_in", "t": result["t"], "frame": session.frame}
+                session.events.send(taken_in)
+            if "facts" in result:
+                await self._publish(temp / "model", result)
+            if "belief" in result:
+                session.events.send(await asyncio.to_thread(self._belief, result["belief"]))
+        return bool(result["behind"])
+
+    async def _publish(self, made: Path, result: dict[str, Any]) -> None:
+        models, record, facts = self._services.models, self._session.record, result["facts"]
+        await asyncio.to_thread(models.publish, record.model_id, made, [], facts, record.model_id)
+        revision = (await asyncio.to_thread(models.get, record.model_id)).revision
+        common = {"t": result["t"], "model_id": record.model_id, "revision": revision}
         self._session.events.send({"type": "map", **common})
         self._session.events.send({"type": "nodes", **common, "nodes": facts["nodes"]})
 
-    async def _localize(self) -> None:
-        services, record = self._services, self._session.record
-        with services.folder.temporary() as temp:
-            out = temp / "steps.jsonl"
-            model = await asyncio.to_thread(services.models.folder, record.model_id)
-            arguments = {
-                "model": str(model),
-                "log": str(self._session.recording.path),
-                "options": {},
-                "out": str(out),
-            }
-            await services.pool.run("localize", arguments, services.job_limits)
-            step = _last_step(out)
-        if step is not None:
-            self._session.events.send(_belief(step))
+    def _belief(self, step: dict[str, Any]) -> dict[str, Any]:
+        best = step["best"]
+        folder = self._services.models.folder(self._session.record.model_id)
+        nodes = read_json(folder / TOPOLOGY_FILE)["nodes"]
+        names = {node["id"]: node["label"] for node in nodes}
+        return {
+            "type": "belief",
+            "t": step["t"],
+            "current_room": best,
+            "label": names.get(best),
+            "probability": step["probabilities"].get(best, 0.0),
+            "probabilities": step["probabilities"],
+            "unknown": step["unknown"],
+            "entropy": step["entropy"],
+            "pose": step["pose"],
+        }
 
-
-def _last_step(path: Path) -> dict[str, Any] | None:
-    lines = path.read_text(encoding="utf-8").splitlines()
-    step: dict[str, Any] | None = json.loads(lines[-1]) if lines else None
-    return step
-
-
-def _belief(step: dict[str, Any]) -> dict[str, Any]:
-    best = step["best"]
-    return {
-        "type": "belief",
-        "t": step["t"],
-        "current_room": best,
-        "probability": step["probabilities"].get(best, 0.0),
-        "probabilities": step["probabilities"],
-        "unknown": step["unknown"],
-        "entropy": step["entropy"],
-        "pose": step["pose"],
-    }
+    def _tell_how_far_behind(self, asked: float | None) -> None:
+        """Says when the map is late, and once more when it no longer is."""
+        late = 0.0 if asked is None else time.monotonic() - asked
+        if late > BEHIND_S or self._was_behind:
+            self._session.events.send({"type": "behind", "seconds": round(late, 2)})
+        self._was_behind = late > BEHIND_S

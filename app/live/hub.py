@@ -16,6 +16,7 @@ from app.live.commits import GroupCommit
 from app.live.growth import Growth
 from app.live.session import Acknowledgement, LiveRecord, LiveSession, LiveStatus
 from app.live.store import LiveStore
+from app.live.workers import LiveWorkers
 from app.services import Services
 from app.storage.data_folder import new_id
 from app.storage.records import JobRecord, ModelRecord
@@ -32,7 +33,7 @@ class LiveHub:
         self._services = services
         self._store = LiveStore(services.folder)
         self._commits = GroupCommit()
-        self._slots = asyncio.Semaphore(services.settings.max_jobs)
+        self._workers = LiveWorkers(services.settings.max_jobs, services.job_limits)
         self._ended: dict[str, LiveRecord] = {}
         self._running: dict[str, LiveSession] = {}
         self._growth: dict[str, Growth] = {}
@@ -57,6 +58,7 @@ class LiveHub:
             task.cancel()
         if self._finishing:
             await asyncio.wait(self._finishing)
+        await self._workers.close()
         await self._commits.close()
 
     async def create(self, mode: Mode, header: dict[str, Any], model_id: str | None) -> LiveRecord:
@@ -165,7 +167,7 @@ class LiveHub:
 
     def _begin(self, session: LiveSession) -> None:
         self._running[session.record.id] = session
-        self._growth[session.record.id] = Growth(self._services, session, self._slots)
+        self._growth[session.record.id] = Growth(self._services, session, self._workers)
 
     def _finish_later(self, session: LiveSession) -> None:
         task = asyncio.create_task(self._finish(session), name=f"finish {session.record.id}")

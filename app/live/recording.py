@@ -51,6 +51,11 @@ class Recording:
             os.fsync(file.fileno())
         return cls(path)
 
+    @property
+    def size(self) -> int:
+        """Bytes that are safe: whole lines."""
+        return self._size
+
     def append(self, records: Sequence[dict[str, Any]]) -> None:
         """Adds scans, all of them safe on the disk when this returns, or none.
 

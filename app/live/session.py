@@ -65,6 +65,7 @@ class LiveSession:
         self.recording = recording
         self.events = EventStream()
         self.duplicates = 0
+        self.frame: list[float] = [0.0, 0.0, 0.0]
         self._commits = commits
         self._latest_t = recording.last_t
 

@@ -93,6 +93,11 @@ class GrowingModel:
         return True
 
     @property
+    def pose(self) -> FloatArray:
+        """(3,) of the last scan."""
+        return self._poses[-1]
+
+    @property
     def trajectory(self) -> Trajectory:
         """The poses so far, taken as exact."""
         return Trajectory.at(np.array(self._t), np.array(self._poses))

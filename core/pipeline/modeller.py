@@ -17,12 +17,13 @@ from core.mapping.odometry_calibration import OdometryCalibration
 from core.pipeline.corrected_drive import corrected_drive
 from core.pipeline.drift_review import drift_view
 from core.pipeline.floor import floor_of_drive, large_parts
-from core.pipeline.growing_model import MethodName
+from core.pipeline.growing_model import GrowingModel, MethodName
 from core.pipeline.mapper import MappingMethod, MappingOptions, map_log
 from core.pipeline.odometry import OdometryChoice
 from core.pipeline.region_finder import (
     FoundRegions,
     along_the_drive,
+    found_so_far,
     given_number,
     number_found,
 )
@@ -127,6 +128,37 @@ def model_log(
     progress(CUTTING_SHARE, "finding doorways")
     model = _model(grid, found, drive.whole.trajectory, options, provenance, previous)
     return replace(model, drift=drift_view(drive, grid, mapping, options.edits))
+
+
+def model_so_far(
+    name: str,
+    growing: GrowingModel,
+    options: ModellingOptions,
+    previous: Model | None = None,
+) -> Model:
+    """The model of a drive that has not ended, as if it ended now.
+
+    Args:
+        name: of the drive.
+        growing: the drive so far.
+        options: what it is modelled with.
+        previous: an earlier model of the same drive, whose ids and labels go along by overlap.
+
+    Raises:
+        MapError: the sonar has not heard anything yet.
+    """
+    whole, trajectory = growing.whole_map(), growing.trajectory
+    if not whole.kept.any():
+        raise MapError(f"drive {name!r} has no usable echo yet: there is nothing to map")
+    found = found_so_far(growing, whole)
+    span = float(trajectory.t[-1] - trajectory.t[0])
+    source = {"log": name, "scans": len(trajectory), "duration_s": round(span, 3)}
+    provenance = {
+        "inputs": [source | {"distance_m": round(growing.driven, 3)}],
+        "odometry": {"used": options.odometry},
+        "mapping": MappingOptions(options.mapping, options.resolution).parameters(),
+    }
+    return _model(whole.grid, found, trajectory, options, provenance, previous)
 
 
 def model_map(
