@@ -58,6 +58,8 @@ class LiveFeed:
             match event["type"]:
                 case "pose":
                     self.track.add(event["t"], event["pose"], event["ranges"])
+                case "taken_in":
+                    self.track.correct(event["t"], event["frame"])
                 case "belief":
                     self._believe(event)
                 case "map":

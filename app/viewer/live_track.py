@@ -22,8 +22,8 @@ LOST = 0.5
 class LiveTrack:
     """The scans and beliefs of a session, in the map's frame. Event loop's thread only.
 
-    A mapping robot is drawn where its odometry says; one that is looked for in a model, where the
-    latest belief put it, moved on by its odometry. Before the first belief, and while it is
+    A mapping robot is drawn where its corrected odometry says; one that is looked for in a model,
+    where the latest belief put it, moved on by its odometry. Before the first belief, and while it is
     probably nowhere in the map, it is drawn nowhere.
     """
 
@@ -35,6 +35,7 @@ class LiveTrack:
         self._ranges: list[FloatArray] = []
         self._poses: list[FloatArray | None] = []
         self._path: list[tuple[int, float, float]] = []
+        self._frame = np.zeros(3)
         self._belief_times: list[float] = []
         self._beliefs: list[dict[str, Any]] = []
 
@@ -57,11 +58,13 @@ class LiveTrack:
         self._beliefs.append(event)
         if not self.localizes:
             return
-        first = self.index_at(event["t"])
-        self._path = [point for point in self._path if point[0] < first]
-        for index in range(first, len(self.times)):
-            self._poses[index] = self._located(index)
-            self._lengthen_path(index)
+        self._locate_from(event["t"])
+
+    def correct(self, t: float, frame: list[float]) -> None:
+        """Drift correction tells the pose (3,) of the odometry's frame in the map's since a time."""
+        self._frame = np.array(frame, float)
+        if not self.localizes:
+            self._locate_from(t)
 
     def index_at(self, t: float | None) -> int:
         """The last scan that is not later than `t` (None: the last of all); 0 before the first."""
@@ -102,9 +105,17 @@ class LiveTrack:
             template=(),
         )
 
+    def _locate_from(self, t: float) -> None:
+        """Finds out anew where the robot was at a time and ever since."""
+        first = self.index_at(t)
+        self._path = [point for point in self._path if point[0] < first]
+        for index in range(first, len(self.times)):
+            self._poses[index] = self._located(index)
+            self._lengthen_path(index)
+
     def _located(self, index: int) -> FloatArray | None:
         if not self.localizes:
-            return self._odometry[index]
+            return compose(self._frame, self._odometry[index])
         event = self._event_at(self.times[index])
         if event is None or event["unknown"] >= LOST:
             return None

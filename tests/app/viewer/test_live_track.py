@@ -71,3 +71,13 @@ def test_what_is_told_twice_is_kept_once():
     track = driven(localizes=False)
     track.add(4.0, [9.0, 9.0, 0.0], SILENT)
     assert len(track) == 5
+
+
+def test_a_mapping_robot_is_drawn_where_drift_correction_puts_it_from_then_on() -> None:
+    track = LiveTrack(RING, localizes=False)
+    for i in range(4):
+        track.add(float(i), [float(i), 0.0, 0.0], SILENT)
+    track.correct(2.0, [0.0, 0.5, 0.0])
+    assert [track.pose(i).tolist() for i in (1, 2, 3)] == [[1, 0, 0], [2, 0.5, 0], [3, 0.5, 0]]
+    track.add(4.0, [4.0, 0.0, 0.0], SILENT)
+    assert track.pose(4).tolist() == [4, 0.5, 0]
