@@ -16,6 +16,7 @@ from app.commands.reproduce import reproduce
 from app.commands.serve import serve
 from app.commands.simulate import simulate
 from app.commands.stream import stream
+from app.commands.token import token
 from core.errors import CancelledError, EchoRoomsError, InputError
 
 BAD_USAGE, FAILED, INTERRUPTED = 2, 1, 130
@@ -58,6 +59,7 @@ app.command("map")(map_log)
 app.command("model")(model)
 app.command("localize")(localize)
 app.command("stream")(stream)
+app.command("token")(token)
 app.command("reproduce")(reproduce)
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from fastapi import APIRouter, FastAPI
 
+from app.access import Access
 from app.api import (
     comparisons,
     docs_page,
@@ -36,6 +37,7 @@ from app.robots.fleet import RobotFleet
 from app.security import BrowserGuard
 from app.services import Services, open_services
 from app.settings import Settings
+from app.token_guard import TokenGuard
 
 if TYPE_CHECKING:
     from core.topology import Model
@@ -43,8 +45,13 @@ if TYPE_CHECKING:
 DESCRIPTION = "Sonar logs in, maps with named rooms out. All lengths in metres, angles in radians."
 
 
-def create_app(settings: Settings) -> FastAPI:
-    """The app; it touches the data folder only between its start and its end (lifespan)."""
+def create_app(settings: Settings, access: Access | None = None) -> FastAPI:
+    """The app; it touches the data folder only between its start and its end (lifespan).
+
+    Args:
+        settings: what it is told.
+        access: its tokens; without, everybody who reaches it may do everything.
+    """
     events = ModelEvents()
     app = FastAPI(
         title="EchoRooms",
@@ -57,6 +64,7 @@ def create_app(settings: Settings) -> FastAPI:
     app.state.settings = settings
     app.state.events = events
     app.state.address = None
+    app.state.access = access
     app.state.view = LazyView(
         lambda view_id: _load_model(app, view_id), events, settings, lambda: app.state.live
     )
@@ -82,6 +90,7 @@ def create_app(settings: Settings) -> FastAPI:
     app.router.routes.append(app.state.view)
     app.mount("/", StaticPages(app, STATIC_FOLDER), name="static")
     app.add_middleware(BodyLimit)
+    app.add_middleware(TokenGuard, access=access)
     app.add_middleware(BrowserGuard, settings=settings)
     return app
 
@@ -92,7 +101,7 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         app.state.services = services
         app.state.live = LiveHub(services)
         await app.state.live.recover()
-        app.state.robots = RobotFleet(app.state.live, lambda: app.state.address)
+        app.state.robots = RobotFleet(app.state.live, lambda: _own_address(app))
         await app.state.robots.recover()
         showing = _start_demo(app) if services.settings.demo else []
         yield
@@ -102,6 +111,15 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         await app.state.robots.close()
         await app.state.live.close()
         await app.state.view.close()
+
+
+def _own_address(app: FastAPI) -> str | None:
+    """The URL, with a token where one is asked for, at which the server's robots reach it."""
+    address, access = app.state.address, app.state.access
+    if address is None or access is None:
+        return None if address is None else str(address)
+    scheme, _, rest = str(address).partition("://")
+    return f"{scheme}://:{access.inner_token}@{rest}"
 
 
 def _start_demo(app: FastAPI) -> list[asyncio.Task[None]]:

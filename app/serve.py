@@ -13,6 +13,7 @@ from collections.abc import Callable, Iterator
 import uvicorn
 from fastapi import FastAPI
 
+from app.access import Access
 from app.main import create_app
 from app.settings import Settings
 from core.errors import InputError
@@ -25,7 +26,7 @@ OnReady = Callable[[str], None]
 """Called with the URL once the server answers."""
 
 
-def run(settings: Settings, on_ready: OnReady | None = None) -> None:
+def run(settings: Settings, on_ready: OnReady | None = None, access: Access | None = None) -> None:
     """Serves until it is told to stop (Ctrl-C or SIGTERM).
 
     Raises:
@@ -33,7 +34,7 @@ def run(settings: Settings, on_ready: OnReady | None = None) -> None:
             be used.
     """
     with _listen(settings) as listener:
-        app = create_app(settings)
+        app = create_app(settings, access)
         app.state.address = _url(listener)
         asyncio.run(_serve(app, listener, on_ready or (lambda url: None)))
 

@@ -43,11 +43,17 @@ def settings_of(host: str | None, port: int | None, data: Path | None, **more: A
 
 def serve_with(settings: Settings) -> None:
     """Runs the server and says where it is."""
+    from app.access import open_access
     from app.serve import run
+
+    access, fresh = (None, None) if settings.loopback_only else open_access(settings.data)
 
     def say(url: str) -> None:
         typer.echo(f"EchoRooms is at {url}  (Ctrl-C stops it)")
-        if not settings.loopback_only:
-            typer.echo("Anyone who can reach this address can see and change everything.", err=True)
+        if fresh is not None:
+            typer.echo(f"token for writing: {fresh.write}\ntoken for reading: {fresh.read}")
+            typer.echo("They are shown this once; `echorooms token` makes new ones.", err=True)
+        elif access is not None:
+            typer.echo("It asks for its token; `echorooms token` makes a new one.", err=True)
 
-    run(settings, say)
+    run(settings, say, access)

@@ -33,15 +33,19 @@ class RobotClient:
     """One live session on a server."""
 
     def __init__(self, url: str, header: dict[str, Any], mode: str, model_id: str | None) -> None:
-        """Begins a session.
+        """Begins a session; a token stands in the URL: `http://:TOKEN@robots.example:8000`.
 
         Raises:
             InputError: the URL is none, or the server refuses the session.
             StreamError: the server cannot be reached.
         """
-        if urlsplit(url).scheme not in ("http", "https"):
+        parts = urlsplit(url)
+        if parts.scheme not in ("http", "https") or not parts.hostname:
             raise InputError(f"{url!r} is no URL of a server, such as http://127.0.0.1:8000")
-        self._url = url.rstrip("/")
+        token = parts.password or parts.username
+        self._headers = {"Authorization": f"Bearer {token}"} if token else {}
+        place = parts.netloc.rpartition("@")[2]
+        self._url = f"{parts.scheme}://{place}{parts.path}".rstrip("/")
         body = {"mode": mode, "header": header, "model_id": model_id}
         self.session = self._request("POST", "/api/live", body)
         self.ack: float | None = None
@@ -85,7 +89,8 @@ class RobotClient:
     def _exchange(self, records: list[dict[str, Any]]) -> dict[str, Any]:
         if self._socket is None:
             path = f"{self._url}/api/live/{self.session['id']}/scans"
-            self._socket = connect("ws" + path.removeprefix("http"), proxy=None)
+            address = "ws" + path.removeprefix("http")
+            self._socket = connect(address, proxy=None, additional_headers=self._headers)
         self._socket.send(json.dumps(records))
         answer: dict[str, Any] = json.loads(self._socket.recv(timeout=ANSWER_S))
         return answer
@@ -105,9 +110,8 @@ class RobotClient:
 
     def _request(self, method: str, path: str, body: Any = None) -> dict[str, Any]:
         data = None if body is None else json.dumps(body).encode()
-        request = urllib.request.Request(
-            self._url + path, data, {"Content-Type": "application/json"}, method=method
-        )
+        headers = {"Content-Type": "application/json"} | self._headers
+        request = urllib.request.Request(self._url + path, data, headers, method=method)
         try:
             with urllib.request.urlopen(request, timeout=ANSWER_S) as response:
                 answer: dict[str, Any] = json.load(response)

@@ -2,7 +2,7 @@
 import { h, replace } from "../js/dom.js";
 import { markdown } from "./markdown.js";
 
-const PAGES = { "getting-started": "Getting started", rooms: "Map and rooms", "live-robot": "A live robot", logs: "Log files", api: "API by curl" };
+const PAGES = { "getting-started": "Getting started", rooms: "Map and rooms", "live-robot": "A live robot", live: "Sending scans, tokens", logs: "Log files", api: "API by curl" };
 
 async function show() {
   const name = location.hash.slice(1) in PAGES ? location.hash.slice(1) : "getting-started";

@@ -39,6 +39,7 @@ export function helpDialog() {
       page("getting-started", "Getting started", "from a drive to named rooms"),
       page("rooms", "Map and rooms", "layers, camera, table, measuring"),
       page("live-robot", "A live robot", "drive one, simulated or real, and watch the model grow"),
+      page("live", "Sending scans, tokens", "WebSocket, HTTP, MQTT; who may on a network"),
       page("logs", "Log files", "the formats, line by line, and the log.yaml"),
       page("api", "API by curl", "everything that this page does, from a script"),
       h("li", {}, h("a", { href: "docs", target: "_blank", rel: "noopener" }, "API reference"), h("span", {}, "every address and field")),
