@@ -103,11 +103,17 @@ async def _lifespan(app: FastAPI) -> AsyncIterator[None]:
         await app.state.live.recover()
         app.state.robots = RobotFleet(app.state.live, lambda: _own_address(app))
         await app.state.robots.recover()
-        showing = _start_demo(app) if services.settings.demo else []
+        background = _start_demo(app) if services.settings.demo else []
+        if services.settings.mqtt_url:
+            from app.live.mqtt_link import Broker, follow_broker
+
+            broker = Broker.of(services.settings.mqtt_url)
+            link = follow_broker(broker, app.state.live, services.settings)
+            background.append(asyncio.create_task(link, name="MQTT"))
         yield
-        for task in showing:
+        for task in background:
             task.cancel()
-        await asyncio.gather(*showing, return_exceptions=True)
+        await asyncio.gather(*background, return_exceptions=True)
         await app.state.robots.close()
         await app.state.live.close()
         await app.state.view.close()

@@ -52,6 +52,15 @@ class Settings(BaseSettings):
         (),
         description="origins of other pages that may use the API (https://example.org), with commas",
     )
+    mqtt_url: str = Field(
+        "", description="MQTT broker (mqtt://user:password@host:1883); empty: none"
+    )
+    mqtt_topic: Annotated[str, Field(pattern=r"^[A-Za-z0-9_/-]+$")] = Field(
+        "echorooms", description="MQTT topic below which robots have theirs"
+    )
+    home_assistant: bool = Field(
+        False, description="announce current rooms to Home Assistant (MQTT discovery)"
+    )
     demo: bool = Field(False, description="load and model the sample logs at start")
 
     max_upload_mb: int = Field(256, ge=1, description="largest upload in MiB")
