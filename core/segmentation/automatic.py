@@ -19,12 +19,16 @@ from core.geometry import BoolArray, FloatArray, IntArray
 from core.mapping import OccupancyGrid
 from core.progress import Progress, no_progress, part_of
 from core.segmentation.boundary_model import BoundaryModel, stored_boundary_model
+from core.segmentation.boundary_shape import Surroundings
 from core.segmentation.connected import renumber
 from core.segmentation.convex_split import ConvexSplitConfig, split_until_convex
 from core.segmentation.draft_cells import DraftConfig, clearance_of, draft_cells
-from core.segmentation.merging import RegionGraph, Surroundings, merge
+from core.segmentation.main_axis import main_axis
+from core.segmentation.merging import RegionGraph, merge
 from core.segmentation.uncluttered import ClutterConfig, uncluttered
 
+BARE = ClutterConfig(largest_obstacle=1.5, least_floor=0.0)
+"""A floor without tables and shelves that stand alone (m2), on which passages are measured again."""
 ROOMS_SHARE = 0.7
 """Share of the time that goes into the rooms, for the progress."""
 
@@ -102,7 +106,9 @@ def draft_of(
     clearance = clearance_of(floor, resolution)
     wall = ndimage.binary_dilation(occupied & ~floor, np.ones((3, 3))) & ~floor
     cells = draft_cells(floor, clearance, resolution, config)
-    return cells, Surroundings(floor, np.asarray(wall), clearance, resolution)
+    bare = clearance_of(uncluttered(floor, resolution, BARE), resolution)
+    around = Surroundings(floor, np.asarray(wall), clearance, bare, main_axis(wall), resolution)
+    return cells, around
 
 
 def _rooms(

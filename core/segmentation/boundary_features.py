@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy import ndimage
 
-from core.geometry import BoolArray, FloatArray, IntArray
+from core.geometry import FloatArray, IntArray
 from core.segmentation.boundary_points import Pair, boundary_points
 from core.segmentation.boundary_shape import BoundaryShape
 from core.segmentation.convex_hull import convex_hull, polygon_area
@@ -40,6 +40,22 @@ FEATURES = (
     "area / disc of the larger (log)",
     "roughness of the border (m)",
     "overlap of the hulls",
+    "bare passage / largest bare disc of the smaller (log)",
+    "largest bare disc of the smaller (log m)",
+    "bare passage (log m)",
+    "wall in line far and wide (log m)",
+    "wall in line far and wide / stretch (log)",
+    "turned against the main walls",
+    "walls flush with the ends, lesser side",
+    "walls flush with the ends, greater side",
+    "wall flush on both sides of an end",
+    "share of all open borders of the smaller",
+    "share of all open borders of the larger",
+    "open share of the outline of the smaller",
+    "open share of the outline of the larger",
+    "neighbours of the smaller (log)",
+    "neighbours of the larger (log)",
+    "all open borders / sqrt(area) of the smaller (log)",
 )
 WALL_THICKNESS = 0.6
 """Metres: two regions that a thicker obstacle parts have no wall in common."""
@@ -53,18 +69,46 @@ HULL_OFFSET = 0.1
 
 @dataclass(frozen=True)
 class RegionShape:
-    """A region: area (m2), clearance at its deepest point (m), corners of its hull (cells) and the
-    area of the hull (m2)."""
+    """A region.
+
+    Attributes:
+        area: square metres.
+        depth: clearance at its deepest point (m).
+        hull, hull_area: corners of its convex hull (cells) and the hull's area (m2).
+        bare: the greatest clearance when furniture that stands alone is carried out (m).
+    """
 
     area: float
     depth: float
     hull: FloatArray
     hull_area: float
+    bare: float
 
     def joined(self, other: RegionShape, resolution: float) -> RegionShape:
         """The two regions as one."""
         hull, area = joint_hull(self, other, resolution)
-        return RegionShape(self.area + other.area, max(self.depth, other.depth), hull, area)
+        return RegionShape(
+            self.area + other.area,
+            max(self.depth, other.depth),
+            hull,
+            area,
+            max(self.bare, other.bare),
+        )
+
+
+@dataclass(frozen=True)
+class RegionOutline:
+    """What a region is bounded by: metres open to its neighbours, metres of wall in common with
+    other regions, and how many neighbours it is open to."""
+
+    open: float
+    wall: float
+    neighbours: int
+
+    @property
+    def open_share(self) -> float:
+        """Share of the outline that is open."""
+        return self.open / (self.open + self.wall + 2 * SMALL)
 
 
 def joint_hull(a: RegionShape, b: RegionShape, resolution: float) -> tuple[FloatArray, float]:
@@ -74,13 +118,15 @@ def joint_hull(a: RegionShape, b: RegionShape, resolution: float) -> tuple[Float
 
 
 def region_shapes(
-    cells: IntArray, clearance: FloatArray, floor: BoolArray, resolution: float
+    cells: IntArray, clearance: FloatArray, bare: FloatArray, resolution: float
 ) -> dict[int, RegionShape]:
-    """The shape of each label of an image (rows, cols), 0 = none."""
+    """The shape of each label of an image (rows, cols), 0 = none, by its clearances (m)."""
     count = int(cells.max(initial=0)) + 1
     area = np.bincount(cells.ravel(), minlength=count) * resolution**2
     depth = np.zeros(count)
     np.maximum.at(depth, cells.ravel(), clearance.ravel())
+    widest = np.zeros(count)
+    np.maximum.at(widest, cells.ravel(), bare.ravel())
     shapes = {}
     for value, box in enumerate(ndimage.find_objects(cells), start=1):
         if box is None:
@@ -90,7 +136,9 @@ def region_shapes(
         points = np.argwhere(mask & ~inner) + np.array([box[0].start, box[1].start])
         hull = convex_hull(points.astype(float))
         hull_area = polygon_area(hull) * resolution**2 + HULL_OFFSET
-        shapes[value] = RegionShape(float(area[value]), float(depth[value]), hull, hull_area)
+        shapes[value] = RegionShape(
+            float(area[value]), float(depth[value]), hull, hull_area, float(widest[value])
+        )
     return shapes
 
 
@@ -108,6 +156,7 @@ def common_walls(cells: IntArray, resolution: float) -> dict[Pair, float]:
 def boundary_features(
     a: RegionShape,
     b: RegionShape,
+    outlines: tuple[RegionOutline, RegionOutline],
     points: int,
     shape: BoundaryShape,
     wall: float,
@@ -117,12 +166,14 @@ def boundary_features(
 
     Args:
         a, b: the regions.
+        outlines: of both.
         points: number of boundary points between them.
         shape: the border's surroundings.
         wall: metres of common wall.
         resolution: metres per cell.
     """
     small, large = (a, b) if a.area <= b.area else (b, a)
+    around_small, around_large = outlines if small is a else outlines[::-1]
     border = max(points * resolution * LONG_BORDER, shape.length)
     passage = max(shape.passage, SMALL)
     _, both = joint_hull(a, b, resolution)
@@ -154,4 +205,20 @@ def boundary_features(
         log(large.area / (4 * large.depth**2)),
         shape.roughness,
         max(0.0, a.hull_area + b.hull_area - both) / min(a.hull_area, b.hull_area),
+        log(max(shape.bare_passage, SMALL) / (2 * min(a.bare, b.bare))),
+        log(min(a.bare, b.bare)),
+        log(max(shape.bare_passage, SMALL)),
+        log(shape.wall_line + 0.1),
+        log((shape.wall_line + 0.1) / length),
+        shape.turned,
+        shape.flush_low,
+        shape.flush_high,
+        shape.flush_line,
+        points * resolution / around_small.open,
+        points * resolution / around_large.open,
+        around_small.open_share,
+        around_large.open_share,
+        log(around_small.neighbours),
+        log(around_large.neighbours),
+        log(around_small.open / math.sqrt(small.area)),
     ]

@@ -7,12 +7,15 @@ belong to the features that the boundary model was fitted to: other values need 
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numba
 import numpy as np
 
 from core.geometry import BoolArray, FloatArray
+from core.segmentation.boundary_walls import flush_walls, jambs, walls_in_line
+from core.segmentation.map_probe import free_run, value_at
 
 BRIDGED = 3.0
 """Cells that may part two points of one stretch."""
@@ -23,13 +26,27 @@ WIDEST = 4.0
 LOOK = (0.75, 1.5)
 """Metres within which the widest open place on each side is sought."""
 RAYS = 12
-JAMB, JAMB_START = 0.6, 0.1
-"""Metres of wall looked for just beside the border, and where that begins."""
-WALL_REACH = 2.0
-"""Metres of wall looked for in line with the border."""
-TURNS, TURN = 4, 2 * math.pi / 180
-SHIFTS, SHIFT = 3, 0.05
-"""The line of the wall may be turned (steps, radians) and shifted (steps, metres) a little."""
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """What borders are measured on.
+
+    Attributes:
+        floor: (rows, cols) free space.
+        wall: (rows, cols) occupied cells, a cell thicker than they are.
+        clearance: (rows, cols) metres to the nearest obstacle.
+        bare: (rows, cols) the same when furniture that stands alone is carried out.
+        axis: direction of the main walls (radians, modulo a right angle).
+        resolution: metres per cell.
+    """
+
+    floor: BoolArray
+    wall: BoolArray
+    clearance: FloatArray
+    bare: FloatArray
+    axis: float
+    resolution: float
 
 
 class BoundaryShape(NamedTuple):
@@ -43,7 +60,13 @@ class BoundaryShape(NamedTuple):
         open_75, open_150: diameter of the largest disc within that distance, narrower side.
         jamb_low, jamb_high: share of wall just beside both ends (the lesser, the greater).
         wall_low, wall_high: share of wall in line with the border (the lesser, the greater).
+        wall_line: metres of wall in line with the border far and wide.
         roughness: standard deviation of the border from a straight line.
+        bare_passage: widest disc that passes once furniture is carried out (diameter).
+        turned: 0 along the main walls of the map or at right angles to them, 1 at 45 degrees.
+        flush_low, flush_high: share of wall that goes on at right angles from the ends of the
+            border, on the side with less and on the one with more; both high within a corridor.
+        flush_line: share that does so on both sides of the better end.
     """
 
     length: float
@@ -58,36 +81,40 @@ class BoundaryShape(NamedTuple):
     jamb_high: float
     wall_low: float
     wall_high: float
+    wall_line: float
     roughness: float
+    bare_passage: float
+    turned: float
+    flush_low: float
+    flush_high: float
+    flush_line: float
 
 
-def boundary_shape(
-    points: FloatArray, floor: BoolArray, wall: BoolArray, clearance: FloatArray, resolution: float
-) -> BoundaryShape:
+def boundary_shape(points: FloatArray, around: Surroundings) -> BoundaryShape:
     """Measures a border.
 
     Args:
         points: (n, 2) middles `[row, col]` between the cells of both sides.
-        floor: (rows, cols) free space.
-        wall: (rows, cols) occupied cells, a cell thicker than they are.
-        clearance: (rows, cols) metres to the nearest obstacle.
-        resolution: metres per cell.
+        around: what it is measured on.
     """
-    length, passage, roughness, frame = _stretch(points, clearance)
-    widths = _widths(frame, floor, resolution)
-    discs = _open_places(frame, floor, clearance, resolution)
-    jamb = _jambs(frame, length, floor, resolution)
-    aligned = _walls_in_line(frame, length, wall, resolution)
-    around = (*widths, *discs, *jamb, *aligned)
-    return BoundaryShape._make((length * resolution, 2 * passage, *around, roughness * resolution))
-
-
-@numba.njit(cache=True)
-def _at(image, row, col):  # type: ignore[no-untyped-def]
-    i, j = int(round(row)), int(round(col))
-    if i < 0 or j < 0 or i >= image.shape[0] or j >= image.shape[1]:
-        return image.dtype.type(0)
-    return image[i, j]
+    floor, resolution = around.floor, around.resolution
+    length, passage, roughness, frame = _stretch(points, around.clearance)
+    rows, cols = points.astype(np.int64).T
+    turned = abs(math.sin(2 * (math.atan2(frame[2], frame[3]) - around.axis)))
+    return BoundaryShape._make(
+        (
+            length * resolution,
+            2 * passage,
+            *_widths(frame, floor, resolution),
+            *_open_places(frame, floor, around.clearance, resolution),
+            *jambs(frame, length, floor, resolution),
+            *walls_in_line(frame, length, around.wall, resolution),
+            roughness * resolution,
+            2 * float(around.bare[rows, cols].max()),
+            turned,
+            *flush_walls(frame, length, floor, resolution),
+        )
+    )
 
 
 @numba.njit(cache=True)
@@ -129,14 +156,6 @@ def _stretch(points, clearance):  # type: ignore[no-untyped-def]
 
 
 @numba.njit(cache=True)
-def _free_run(floor, row, col, dr, dc, most):  # type: ignore[no-untyped-def]
-    k = 0
-    while k < most and _at(floor, row + k * dr, col + k * dc):
-        k += 1
-    return k
-
-
-@numba.njit(cache=True)
 def _widths(frame, floor, resolution):  # type: ignore[no-untyped-def]
     """near_35, near_70, near_120, wide_70. A width also counts where it is found a step nearer."""
     row, col, dr, dc = frame
@@ -147,7 +166,7 @@ def _widths(frame, floor, resolution):  # type: ignore[no-untyped-def]
         for q in range(3):
             off = sign * OFFSETS[q] / resolution
             r, c = row - off * dc, col + off * dr
-            width[side, q] = _free_run(floor, r, c, dr, dc, most) + _free_run(
+            width[side, q] = free_run(floor, r, c, dr, dc, most) + free_run(
                 floor, r - dr, c - dc, -dr, -dc, most
             )
         width[side, 1] = max(width[side, 1], width[side, 0])
@@ -168,46 +187,10 @@ def _open_places(frame, floor, clearance, resolution):  # type: ignore[no-untype
                 vr = math.cos(angle) * dr - math.sin(angle) * sign * dc
                 vc = math.cos(angle) * dc + math.sin(angle) * sign * dr
                 step = 1
-                while step < LOOK[q] / resolution and _at(floor, row + step * vr, col + step * vc):
-                    value = _at(clearance, row + step * vr, col + step * vc)
+                while step < LOOK[q] / resolution and value_at(
+                    floor, row + step * vr, col + step * vc
+                ):
+                    value = value_at(clearance, row + step * vr, col + step * vc)
                     best[q, side] = max(best[q, side], value)
                     step += 1
     return 2 * min(best[0, 0], best[0, 1]), 2 * min(best[1, 0], best[1, 1])
-
-
-@numba.njit(cache=True)
-def _jambs(frame, length, floor, resolution):  # type: ignore[no-untyped-def]
-    """jamb_low, jamb_high."""
-    row, col, dr, dc = frame
-    count, start = int(JAMB / resolution), max(1, int(JAMB_START / resolution))
-    share = np.zeros(2)
-    for side in range(2):
-        sign = 1 - 2 * side
-        for k in range(count):
-            at = sign * (length / 2 + start + k)
-            if not _at(floor, row + at * dr, col + at * dc):
-                share[side] += 1 / max(count, 1)
-    return share.min(), share.max()
-
-
-@numba.njit(cache=True)
-def _walls_in_line(frame, length, wall, resolution):  # type: ignore[no-untyped-def]
-    """wall_low, wall_high on the best of the slightly turned and shifted lines."""
-    row, col, dr, dc = frame
-    count = int(WALL_REACH / resolution)
-    best, low, high = -1.0, 0.0, 0.0
-    for turn in range(-TURNS, TURNS + 1):
-        cos, sin = math.cos(turn * TURN), math.sin(turn * TURN)
-        er, ec = cos * dr - sin * dc, cos * dc + sin * dr
-        for shift in range(-SHIFTS, SHIFTS + 1):
-            off = shift * SHIFT / resolution
-            r, c = row - off * dc, col + off * dr
-            ahead, back = 0.0, 0.0
-            for k in range(count):
-                at = length / 2 + 1 + k
-                ahead += _at(wall, r + at * er, c + at * ec)
-                back += _at(wall, r - at * er, c - at * ec)
-            if ahead + back > best:
-                best = ahead + back
-                low, high = min(ahead, back) / max(count, 1), max(ahead, back) / max(count, 1)
-    return low, high

@@ -7,30 +7,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from core.geometry import BoolArray, FloatArray, IntArray
+from core.geometry import FloatArray, IntArray
 from core.segmentation.boundary_features import (
+    RegionOutline,
     RegionShape,
     boundary_features,
     common_walls,
     region_shapes,
 )
 from core.segmentation.boundary_points import Pair, boundary_points
-from core.segmentation.boundary_shape import BoundaryShape, boundary_shape
+from core.segmentation.boundary_shape import BoundaryShape, Surroundings, boundary_shape
 
 Judge = Callable[[list[Pair], FloatArray], FloatArray]
 """Log-odds (n,) that the borders of n pairs with these features (n, f) are real."""
 Merged = Callable[[int, int], None]
 """Told `(kept, gone)` at each merger."""
-
-
-@dataclass(frozen=True)
-class Surroundings:
-    """What borders are measured on: floor, walls (a cell thicker), clearance (m), metres a cell."""
-
-    floor: BoolArray
-    wall: BoolArray
-    clearance: FloatArray
-    resolution: float
 
 
 @dataclass
@@ -47,7 +38,7 @@ class RegionGraph:
     def __init__(self, cells: IntArray, around: Surroundings) -> None:
         self._around = around
         self.shapes: dict[int, RegionShape] = region_shapes(
-            cells, around.clearance, around.floor, around.resolution
+            cells, around.clearance, around.bare, around.resolution
         )
         self.parent = np.arange(int(cells.max(initial=0)) + 1)
         self.borders: dict[int, dict[int, _Border]] = {value: {} for value in self.shapes}
@@ -68,10 +59,20 @@ class RegionGraph:
         return boundary_features(
             self.shapes[a],
             self.shapes[b],
+            (self.outline(a), self.outline(b)),
             len(border.points),
             border.shape,
             self._walls[a].get(b, 0.0),
             self._around.resolution,
+        )
+
+    def outline(self, region: int) -> RegionOutline:
+        """What bounds a region."""
+        borders, resolution = self.borders[region], self._around.resolution
+        return RegionOutline(
+            sum(len(border.points) for border in borders.values()) * resolution,
+            sum(self._walls[region].values()),
+            len(borders),
         )
 
     def join(self, kept: int, gone: int) -> list[Pair]:
@@ -94,11 +95,7 @@ class RegionGraph:
         return [(min(kept, other), max(kept, other)) for other in self.borders[kept]]
 
     def _border(self, points: FloatArray) -> _Border:
-        around = self._around
-        shape = boundary_shape(
-            points, around.floor, around.wall, around.clearance, around.resolution
-        )
-        return _Border(points, shape)
+        return _Border(points, boundary_shape(points, self._around))
 
 
 def merge(

@@ -16,6 +16,7 @@ import json
 import sys
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 from rooms_maps import GROUPS, MapOfRooms, load_maps, scored
@@ -23,12 +24,15 @@ from rooms_maps import GROUPS, MapOfRooms, load_maps, scored
 import core.segmentation.boundary_model as boundary_model
 from core.geometry import BoolArray, FloatArray
 from core.segmentation.automatic import AutomaticConfig, draft_of, segment_automatically
+from core.segmentation.boundary_features import FEATURES
 from core.segmentation.boundary_model import BoundaryModel
 from core.segmentation.merging import RegionGraph, merge
 from core.segmentation.uncluttered import uncluttered
 
 TREES = {"max_leaf_nodes": 6, "max_iter": 80, "min_samples_leaf": 40, "learning_rate": 0.1,
-         "l2_regularization": 1.0, "random_state": 0}  # fmt: skip
+         "l2_regularization": 1.0, "max_features": 0.3}  # fmt: skip
+ENSEMBLES = 2
+"""Sets of trees, each seeing other features at its splits; what they say is averaged."""
 NEVER = 1e3
 FEWEST = 20
 
@@ -90,7 +94,7 @@ class Draft:
         merge(RegionGraph(self.cells, self.around), judge, limit, merged)
         rows = list(met.values())
         if not rows:
-            return Samples(np.zeros((0, 26)), np.zeros(0, bool), np.zeros(0))
+            return Samples(np.zeros((0, len(FEATURES))), np.zeros(0, bool), np.zeros(0))
         return Samples(
             np.array([r[0] for r in rows]),
             np.array([r[1] for r in rows]),
@@ -108,14 +112,19 @@ def fit(samples: list[Samples], groups: list[str]) -> BoundaryModel:
     )
     x = np.concatenate([s.features for s in samples])
     y = np.concatenate([s.real for s in samples])
-    trees = HistGradientBoostingClassifier(**TREES).fit(x, y, weight * len(weight) / weight.sum())
-    return as_model(trees)
+    weight *= len(weight) / weight.sum()
+    return as_model(
+        [
+            HistGradientBoostingClassifier(**TREES, random_state=seed).fit(x, y, weight)
+            for seed in range(ENSEMBLES)
+        ]
+    )
 
 
-def as_model(trees: object) -> BoundaryModel:
-    """The splits of fitted trees."""
+def as_model(ensembles: list[Any]) -> BoundaryModel:
+    """The splits of fitted trees, as one set of trees that gives the mean."""
     parts: dict[str, list[float]] = {k: [] for k in ("root", "f", "t", "low", "high", "v")}
-    for predictor in trees._predictors:  # type: ignore[attr-defined]
+    for predictor in (p for trees in ensembles for p in trees._predictors):
         knots, start = predictor[0].nodes, len(parts["f"])
         parts["root"].append(start)
         leaf = knots["is_leaf"].astype(bool)
@@ -123,9 +132,9 @@ def as_model(trees: object) -> BoundaryModel:
         parts["t"] += knots["num_threshold"].tolist()
         parts["low"] += (knots["left"].astype(int) + start).tolist()
         parts["high"] += (knots["right"].astype(int) + start).tolist()
-        parts["v"] += np.where(leaf, knots["value"], 0.0).tolist()
+        parts["v"] += np.where(leaf, knots["value"] / len(ensembles), 0.0).tolist()
     whole = {k: np.array(parts[k], np.int64) for k in ("root", "f", "low", "high")}
-    base = float(np.ravel(trees._baseline_prediction)[0])  # type: ignore[attr-defined]
+    base = float(np.mean([np.ravel(trees._baseline_prediction)[0] for trees in ensembles]))
     exact = BoundaryModel(
         whole["root"], whole["f"], np.array(parts["t"]), whole["low"], whole["high"],
         np.array(parts["v"]), base,
