@@ -38,12 +38,11 @@ class AutomaticConfig:
     """Parameters of automatic segmentation.
 
     Attributes:
-        least_log_odds: that a border needs to part two rooms. Below 0: to leave one room in two
-            pieces costs a person one edit, to swallow one costs more.
+        least_log_odds: that a border needs to part two rooms; 0: more likely than not.
         clutter, draft, convex: of the stages.
     """
 
-    least_log_odds: float = -0.4
+    least_log_odds: float = 0.0
     clutter: ClutterConfig = field(default_factory=ClutterConfig)
     draft: DraftConfig = field(default_factory=DraftConfig)
     convex: ConvexSplitConfig = field(default_factory=ConvexSplitConfig)

@@ -34,6 +34,8 @@ TREES = {"max_leaf_nodes": 6, "max_iter": 80, "min_samples_leaf": 40, "learning_
 ENSEMBLES = 2
 """Sets of trees, each seeing other features at its splits; what they say is averaged."""
 NEVER = 1e3
+MET = -0.4
+"""Log-odds up to which a model merges while it meets borders to learn from."""
 FEWEST = 20
 
 
@@ -90,7 +92,7 @@ class Draft:
                 for pair in [p for p in met if gone in p and met[p][1]]:
                     del met[pair]
 
-        limit = AutomaticConfig().least_log_odds if model else NEVER / 2
+        limit = MET if model else NEVER / 2
         merge(RegionGraph(self.cells, self.around), judge, limit, merged)
         rows = list(met.values())
         if not rows:
