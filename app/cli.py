@@ -8,6 +8,7 @@ from typing import Annotated
 
 import typer
 
+from app.commands.bridge import bridge
 from app.commands.demo import demo
 from app.commands.localize import localize
 from app.commands.map import map_log
@@ -59,6 +60,7 @@ app.command("map")(map_log)
 app.command("model")(model)
 app.command("localize")(localize)
 app.command("stream")(stream)
+app.command("bridge")(bridge)
 app.command("token")(token)
 app.command("reproduce")(reproduce)
 
