@@ -70,6 +70,7 @@ function follow(model) {
     set({ job });
     if (!ended(job)) return;
     if (job.status === "done") toast(`${model.name} is ready.`);
+    else if (job.error) showError(new Error(job.error));
     if (get().route.id !== model.id) return;
     showModel(model.id).then(() => {
       set({ job: null });

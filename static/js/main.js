@@ -2,6 +2,8 @@
 import { refreshLists, reloadModel, showRoute, takeLabels, upload } from "./actions.js";
 import { takeSpan, watchWhatDrives } from "./live.js";
 import { details } from "./panels/details.js";
+import { startDriftView } from "./panels/drift_view.js";
+import { pointed } from "./panels/drift_tools.js";
 import { redo, undo } from "./panels/edit_actions.js";
 import { startCut, stopCut } from "./panels/edit_cut.js";
 import { startGrowthPlayer } from "./panels/growth_player.js";
@@ -18,7 +20,7 @@ import { screenshot, topbar } from "./panels/topbar.js";
 import { go, link, startRouter } from "./router.js";
 import { helpDialog, shortcut, startShortcuts } from "./shortcuts.js";
 import { startSecondView } from "./second_view.js";
-import { get } from "./store.js";
+import { get, set } from "./store.js";
 import { toggleTheme } from "./theme.js";
 import { toast } from "./toasts.js";
 import { acceptDrops } from "./upload.js";
@@ -36,12 +38,14 @@ details(byId("details"));
 playerControls(byId("player"));
 startLocalizationPlayer();
 startGrowthPlayer();
+startDriftView();
 startSecondView();
 startDriving();
 
 onView({
   onLabels: takeLabels,
   onChanged: reloadModel,
+  onPointed: pointed,
   onPicked: picked,
   onTrack: takeSpan,
   onDrive: driveByKey,

@@ -3,7 +3,7 @@
 const state = {
   logs: null, // summaries, null until loaded
   models: null,
-  route: { page: "home", id: null, localization: null, growth: false, compare: null },
+  route: { page: "home", id: null, localization: null, growth: false, drift: false, compare: null },
   log: null, // detail of the log that is shown
   model: null, // detail of the model that is shown
   job: null, // the job that makes the shown model
@@ -15,6 +15,10 @@ const state = {
   stepIndex: 0, // which step of a localization or of the timeline is shown, from 0
   playing: false,
   speed: 1, // steps a second
+  drift: null, // what the API tells of the drift of the shown model's drive, null until loaded
+  driftShare: 1, // where the 3D view shows the drive: 0 at the odometry, 1 corrected
+  driftClosure: null, // id of the closure that is looked at
+  driftTool: null, // what clicks in the 3D view say: {op: same_place | drag, t}; `t` (s): the first place
   selected: null, // node id
   picked: [], // ids of nodes selected beside it
   cutting: null, // id of the node that is being split

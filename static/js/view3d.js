@@ -8,6 +8,7 @@ import { onTheme, theme } from "./theme.js";
 const TAB_KEY = "echorooms.tab";
 const RETRY_MS = [500, 1000, 2000, 4000, 8000];
 const NO_SUCH_MODEL = 4404;
+const PASSED_ON = { picked: "onPicked", track: "onTrack", pointed: "onPointed" };
 /** `?fixedDpr=0.5` in the page's address makes the 3D view coarser, for slow machines. */
 export const SHARPNESS = /^\?fixedDpr=[\d.]+$/.test(location.search) ? location.search : "";
 
@@ -18,7 +19,7 @@ let drives = false; // whether the camera's keys drive a robot
 const handlers = {};
 const connected = new Set();
 
-/** Hears what the view says: onLabels, onSelected, onChanged, onDeleted, onPicked, onTrack, onDrive. */
+/** Hears what the view says: onLabels, onSelected, onChanged, onDeleted, onPicked, onTrack, onPointed, onDrive. */
 export function onView(events) {
   Object.assign(handlers, events);
 }
@@ -173,12 +174,6 @@ function hear(message) {
     case "camera":
       set({ view: message.view });
       break;
-    case "picked":
-      handlers.onPicked?.(message);
-      break;
-    case "track":
-      handlers.onTrack?.(message);
-      break;
     case "measured":
       set({ measured: message });
       break;
@@ -188,6 +183,8 @@ function hear(message) {
     case "model_deleted":
       handlers.onDeleted?.(current.model);
       break;
+    default:
+      handlers[PASSED_ON[message.type]]?.(message);
   }
 }
 

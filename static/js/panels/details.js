@@ -3,6 +3,7 @@ import { h, replace } from "../dom.js";
 import { get, watch } from "../store.js";
 import { comparePanel } from "./compare_panel.js";
 import { convexityChart } from "./convexity_chart.js";
+import { driftPanel } from "./drift_panel.js";
 import { editHistory } from "./edit_history.js";
 import { growthPanel } from "./growth_panel.js";
 import { livePanel } from "./live_panel.js";
@@ -24,9 +25,10 @@ export function details(root) {
   const rooms = h("div", { class: "stack" }, live, table, chosen, localizations, convexity, facts);
   const played = h("div", { class: "stack localization" });
   const grew = h("div", { class: "stack growth" });
+  const drifted = h("div", { class: "stack drift" });
   const form = h("div", { class: "stack" });
   const compared = h("div", { class: "stack" });
-  replace(root, rooms, played, grew, compared, form);
+  replace(root, rooms, played, grew, drifted, compared, form);
   nodeTable(table);
   table.querySelector("h2").append(history);
   editHistory(history);
@@ -36,6 +38,7 @@ export function details(root) {
   localizationList(localizations);
   localizationPanel(played);
   growthPanel(grew);
+  driftPanel(drifted);
   comparePanel(compared);
   livePanel(live);
   watch(["route", "log", "model", "live"], () => {
@@ -46,8 +49,9 @@ export function details(root) {
     facts.hidden = localizations.hidden = convexity.hidden = isLive;
     table.hidden = chosen.hidden = isLive && !model?.nodes?.length;
     const showsForm = route.page === "log" && log !== null;
-    rooms.hidden = !showsRooms || route.localization !== null || route.growth || route.compare !== null;
+    rooms.hidden = !showsRooms || route.localization !== null || route.growth || route.drift || route.compare !== null;
     grew.hidden = !showsRooms || !route.growth;
+    drifted.hidden = !showsRooms || !route.drift;
     compared.hidden = !showsRooms || route.compare === null;
     played.hidden = !showsRooms || route.localization === null;
     form.hidden = !showsForm;

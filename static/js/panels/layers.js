@@ -15,8 +15,14 @@ const LAYERS = [
   ["bars", "bars", "probabilities"],
   ["robot", "robot", "the robot, its way, its local map and the candidates"],
   ["beams", "beams", "sonar beams of a live robot"],
+  ["maps", "maps", "the maps at raw and at corrected odometry"],
+  ["odometry", "raw trajectory", "where the odometry says that the robot drove"],
+  ["corrected", "corrected", "where the robot drove by the corrected trajectory"],
+  ["closures", "closures", "places found again"],
 ];
 const PLAYED = new Set(["bars", "robot"]);
+/** Layers of the drift, which is shown instead of the model. */
+const DRIFT = new Set(["maps", "odometry", "corrected", "closures"]);
 const LIVE = new Set(["bars", "robot", "beams"]);
 
 export function layers(root) {
@@ -31,7 +37,7 @@ export function layers(root) {
     section.hidden = state.connection === "none" || state.route.growth;
     for (const [name, { box, label }] of boxes) {
       const here = state.route.page === "live" || (PLAYED.has(name) && state.route.localization);
-      label.hidden = !(name in state.layers) || (LIVE.has(name) && !here);
+      label.hidden = !(name in state.layers) || (LIVE.has(name) && !here) || DRIFT.has(name) !== state.route.drift;
       box.checked = Boolean(state.layers[name]);
     }
   });

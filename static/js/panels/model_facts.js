@@ -17,6 +17,7 @@ export function modelFacts(root) {
     const options = Object.entries(WORDS).filter(([key]) => model.options[key] !== undefined && model.options[key] !== null);
     replace(root, model.log_ids.length > 0 && model.options.regions == null && model.options.mode !== "offline" && h("p", { class: "grew" },
       h("a", { class: "button", href: link.growth(model.id) }, icon("play"), "How it grew along the drive")),
+    model.log_ids.length > 0 && h("p", { class: "grew" }, h("a", { class: "button", href: link.drift(model.id) }, icon("waves"), "Drift of the drive")),
     beside(model, models ?? []),
     h("details", { class: "advanced" }, h("summary", {}, "About this model"), h("dl", { class: "facts" },
       fact("Floor", `${model.area_m2.toFixed(0)} m², ${count(model.node_count, "region")}, ${count(model.room_count, "room")}`),
