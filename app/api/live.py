@@ -17,7 +17,7 @@ from app.api.schemas import Accepted, moment
 from app.api.schemas import Body as ClosedBody
 from app.errors import Problem
 from app.live.hub import LiveHub
-from app.live.session import Acknowledgement, LiveRecord, LiveStatus
+from app.live.session import MODEL_ID, Acknowledgement, LiveRecord, LiveStatus
 from core.errors import InputError
 
 router = APIRouter(prefix="/live", tags=["live"])
@@ -40,7 +40,7 @@ class LiveBody(ClosedBody):
 
     mode: Literal["mapping", "localization"] = "mapping"
     header: dict[str, Any] = Field(description="the first line of a native log")
-    model_id: str | None = Field(None, max_length=64, description="where to localize")
+    model_id: str | None = Field(None, pattern=MODEL_ID, description="where to localize")
 
 
 class LiveDetail(BaseModel):

@@ -61,7 +61,9 @@ class LiveHub:
         await self._workers.close()
         await self._commits.close()
 
-    async def create(self, mode: Mode, header: dict[str, Any], model_id: str | None) -> LiveRecord:
+    async def create(
+        self, mode: Mode, header: dict[str, Any], model_id: str | None, origin: str = ""
+    ) -> LiveRecord:
         """A new session.
 
         Raises:
@@ -70,6 +72,7 @@ class LiveHub:
         """
         name = parse_header(header)[0] or "live drive"
         record = await asyncio.to_thread(self._new_record, mode, name, model_id)
+        record = replace(record, origin=origin)
         recording = await asyncio.to_thread(self._store.create, record, header)
         self._begin(LiveSession(record, recording, self._commits))
         return record

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
+import json
 import logging
 from dataclasses import dataclass
 from urllib.parse import unquote, urlsplit
@@ -117,7 +118,8 @@ async def _dispatch(
             payload = message.payload if isinstance(message.payload, bytes) else b""
             if name not in robots:
                 if len(robots) >= MOST_ROBOTS:
-                    await client.publish(f"{topic}/{name}/error", "there are too many robots")
+                    refusal = json.dumps({"error": "there are too many robots"})
+                    await client.publish(f"{topic}/{name}/error", refusal)
                     continue
                 robot = MqttRobot(client, live, f"{topic}/{name}")
                 robots[name] = robot, tasks.create_task(robot.run(), name=f"MQTT robot {name}")

@@ -4,17 +4,27 @@ from __future__ import annotations
 
 import asyncio
 import json
+import logging
 from typing import Any
 
 import aiomqtt
+from pydantic import BaseModel, Field, ValidationError
 
 from app.errors import Problem
 from app.live.hub import LiveHub, Mode
-from app.live.session import LiveStatus
+from app.live.session import MODEL_ID, LiveStatus
 from core.errors import EchoRoomsError, InputError
+from core.log_readers.safe_yaml import describe
 
+logger = logging.getLogger(__name__)
 MOST_WAITING = 256
-MODES: tuple[Mode, ...] = ("mapping", "localization")
+
+
+class _Beginning(BaseModel):
+    """What a header says beside being one."""
+
+    mode: Mode = "mapping"
+    model_id: str | None = Field(None, pattern=MODEL_ID)
 
 
 class MqttRobot:
@@ -49,12 +59,20 @@ class MqttRobot:
                 await self.complain(str(error))
             except Problem as error:
                 await self.complain(str(error.detail))
+            except aiomqtt.MqttError:
+                raise
+            except Exception:
+                logger.exception("a message to %s/%s failed", self._topic, kind)
+                await self.complain("something went wrong in the server; its own log says more")
 
     async def _take(self, kind: str, payload: bytes) -> None:
         if kind == "end":
             if self._session is not None:
                 await self._live.finish(self._session)
                 self._session = None
+                await self._client.publish(f"{self._topic}/header", b"", qos=1, retain=True)
+            return
+        if kind == "header" and not payload:
             return
         content = _parsed(payload)
         if kind == "header":
@@ -75,18 +93,23 @@ class MqttRobot:
 
         A retained header comes again with every connection; it does not begin another session.
         """
-        if not isinstance(content, dict):
-            raise InputError("a header is a JSON object")
+        try:
+            wanted = _Beginning.model_validate(content)
+        except ValidationError as error:
+            raise InputError(f"header: {describe(error)}") from error
         header = {k: v for k, v in content.items() if k not in ("mode", "model_id")}
-        mode, model_id = content.get("mode", "mapping"), content.get("model_id")
-        if mode not in MODES:
-            raise InputError(f"mode {mode!r}: choose mapping or localization")
         for record in self._live.records():
-            running = self._live.running(record.id)
-            same = running is not None and running.recording.header == header
-            if same and record.status is LiveStatus.RUNNING and record.mode == mode:
+            session = self._live.running(record.id)
+            if session is None or record.origin != self._topic:
+                continue
+            place = wanted.model_id if wanted.mode == "localization" else record.model_id
+            same = (record.mode, record.model_id) == (wanted.mode, place)
+            if same and session.recording.header == header:
                 return record.id
-        return (await self._live.create(mode, header, model_id)).id
+            if record.status is LiveStatus.RUNNING:
+                await self._live.finish(record.id)
+        made = await self._live.create(wanted.mode, header, wanted.model_id, self._topic)
+        return made.id
 
 
 def _parsed(payload: bytes) -> Any:

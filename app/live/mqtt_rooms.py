@@ -35,7 +35,7 @@ async def announce_rooms(client: aiomqtt.Client, live: LiveHub, settings: Settin
 
 
 async def _follow(client: aiomqtt.Client, session: LiveSession, settings: Settings) -> None:
-    name = topic_name(session.record.name)
+    name = topic_name(session.record.origin.rpartition("/")[2] or session.record.name)
     topic = f"{settings.mqtt_topic}/{name}/room"
     if settings.home_assistant:
         config = discovery(session.record.name, name, topic)

@@ -44,7 +44,7 @@ class Recording:
             LogError, TooLargeError: the header is none.
         """
         parse_header(header)
-        line = json.dumps(header, ensure_ascii=False) + "\n"
+        line = json.dumps(header) + "\n"
         with path.open("xb") as file:
             file.write(line.encode())
             file.flush()
@@ -90,4 +90,4 @@ class Recording:
 
 
 def _line(record: dict[str, Any]) -> bytes:
-    return json.dumps(record, ensure_ascii=False, separators=(",", ":")).encode() + b"\n"
+    return json.dumps(record, separators=(",", ":")).encode() + b"\n"

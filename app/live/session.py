@@ -13,6 +13,8 @@ from app.live.recording import Recording
 from core.errors import LogError
 from core.log_readers.native import parse_scan
 
+MODEL_ID = r"^[\w-]{1,64}$"
+"""How ids of models look in messages from outside."""
 MOST_SCANS = 5000
 """Scans that one message may hold."""
 MOST_TOLD = 20
@@ -35,6 +37,7 @@ class LiveRecord:
         mode: "mapping" or "localization".
         log_id: the log that it becomes when it is finished.
         model_id: the model that grows, or in which the robot is looked for.
+        origin: what tells this robot from others where a connection does not, such as its topic.
     """
 
     id: str
@@ -46,6 +49,7 @@ class LiveRecord:
     status: LiveStatus = LiveStatus.RUNNING
     stored: int = 0
     last_t: float | None = None
+    origin: str = ""
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,6 @@ PATH = "drive"
 ODOMETRY: Colour = (222, 96, 84)
 CORRECTED: Colour = (24, 92, 255)
 ACCEPTED: Colour = (22, 150, 80)
-REJECTED: Colour = (150, 120, 60)
 CHOSEN: Colour = (224, 36, 94)
 MAP_LEVELS: Mapping[str, float] = {"corrected": 0.012, "odometry": 0.02}
 PATH_LEVEL, GHOST_LEVEL, CLOSURE_LEVEL, CHOSEN_LEVEL = 0.06, 0.045, 0.09, 0.13
@@ -74,7 +73,7 @@ class DriftScene:
             *(f"/{DRIFT_MAPS}/{name}" for name in MAP_LEVELS),
             f"/{ODOMETRY_PATH}/line",
             f"/{CORRECTED_PATH}/line",
-            *(f"/{CLOSURES}/{name}" for name in ("accepted", "rejected", "chosen")),
+            *(f"/{CLOSURES}/{name}" for name in ("accepted", "chosen")),
             f"/{PATH}",
         ):
             self._canvas.remove(name)
@@ -92,10 +91,10 @@ class DriftScene:
     def _closures(
         self, drift: DriftDrawing, between: FloatArray, chosen: str | None, size: float
     ) -> None:
-        for name, accepted, colour in (("rejected", False, REJECTED), ("accepted", True, ACCEPTED)):
-            marks = [mark for mark in drift.closures if mark.accepted is accepted]
-            segments = _segments(marks, between, CLOSURE_LEVEL)
-            self._lines(f"/{CLOSURES}/{name}", segments, colour, CLOSURE_WIDTH * size)
+        """Those that are used, and the chosen one whether it is or not."""
+        marks = [mark for mark in drift.closures if mark.accepted]
+        segments = _segments(marks, between, CLOSURE_LEVEL)
+        self._lines(f"/{CLOSURES}/accepted", segments, ACCEPTED, CLOSURE_WIDTH * size)
         marks = [mark for mark in drift.closures if mark.id == chosen]
         segments = _segments(marks, between, CHOSEN_LEVEL)
         self._lines(f"/{CLOSURES}/chosen", segments, CHOSEN, CHOSEN_WIDTH * size)

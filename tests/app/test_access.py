@@ -162,6 +162,8 @@ def test_a_person_logs_in_with_a_form_and_gets_a_cookie_that_scripts_cannot_read
     assert "httponly" in cookie
     assert "samesite=strict" in cookie
     assert guarded.get("/", headers={"accept": "text/html"}).status_code == 200
+    beside = {"cookie": f'prefs={{"a":1}}; {COOKIE}={opened[1].read}'}
+    assert guarded.get("/api/models", headers=beside).status_code == 200
     guarded.get("/logout")
     assert guarded.get("/api/models").status_code == 401
     guarded.cookies.clear()

@@ -12,6 +12,7 @@ export function logReport(log) {
   return h("article", { class: "report" },
     h("header", {}, h("h2", {}, log.name), h("p", { class: "muted" }, `${FORMATS[report.format] ?? report.format}, ${bytes(log.size_bytes)}, uploaded ${when(log.created)} · `, h("a", { href: files.log(log.id), download: "" }, "download"))),
     verdict(report),
+    robot(log.robot),
     h("section", {}, h("h3", {}, "Figures"), figures(report)),
     h("section", {}, h("h3", {}, "Sonars"), sonars(report)),
     events(report),
@@ -27,6 +28,12 @@ function verdict(report) {
     icon(report.good_for_map ? "check" : "alert"),
     h("div", {}, h("p", { class: "verdict-first" }, first), more.map((sentence) => h("p", {}, sentence))),
   );
+}
+
+function robot(known) {
+  if (!known) return null;
+  return h("section", {}, h("h3", {}, "This robot's odometry is known"), h("ul", { class: "findings" }, known.sentences.map((sentence) => h("li", {}, sentence))),
+    h("p", { class: "muted" }, `From the drive of ${known.model_name}, ${when(known.kept)}. Choose it under More options to begin with it.`));
 }
 
 function figures(report) {

@@ -19,6 +19,7 @@ export function modellingForm(log) {
   const method = select("Method", "method", [["default", "Default"], ["paper", "As in the paper"]], before.method);
   const mapping = select("Map", "mapping", [["cemal", "CEMAL (keeps thin walls)"], ["bayes", "Bayes (log-odds)"]], before.mapping);
   const odometry = select("Odometry", "odometry", [["", "Default"], ["raw", "As it is in the log"], ["calibrated", "Calibrated on the echoes"], ["corrected", "Corrected for drift"]], before.odometry);
+  const known = log.robot && h("label", { class: "check", title: log.robot.sentences.join(" ") }, h("input", { type: "checkbox", name: "calibration", value: "robot" }), `What is known of this robot's odometry (from ${log.robot.model_name})`);
   const named = (get().models ?? []).filter((model) => model.status === "done" && model.labels.length);
   const labels = select("Names from", "labels_from", [["", "none"], ...named.map((model) => [model.id, model.name])], "");
   const resolution = select("Resolution", "resolution", [["0.05", "5 cm"], ["0.1", "10 cm (coarse)"], ["0.025", "2.5 cm (fine, slow)"]], before.resolution);
@@ -29,7 +30,7 @@ export function modellingForm(log) {
     !log.report.good_for_map && h("p", { class: "hint" }, "The report says that this log is not good enough for a map. You can try all the same."),
     name,
     h("fieldset", {}, h("legend", {}, "Regions"), autonomous, offline, regionsField),
-    h("details", { class: "advanced" }, h("summary", {}, "More options"), mapping, method, odometry, resolution, named.length > 0 && labels),
+    h("details", { class: "advanced" }, h("summary", {}, "More options"), mapping, method, odometry, known, resolution, named.length > 0 && labels),
     error, submit,
   );
   const adapt = () => {
@@ -59,6 +60,7 @@ function body(log, data) {
   const given = { log_id: log.id, mode: data.get("mode"), mapping: data.get("mapping"), method: data.get("method"), resolution: Number(data.get("resolution")) };
   if (data.get("mode") === "offline") given.regions = Number(data.get("regions"));
   if (data.get("labels_from")) given.labels_from = data.get("labels_from");
+  if (data.get("calibration")) given.calibration = "robot";
   if (data.get("odometry")) given.odometry = data.get("odometry");
   given.name = data.get("name").trim() || log.name;
   return given;

@@ -124,17 +124,68 @@ def test_garbage_is_answered_and_survived(
             ("header", b'{"format": "echo'),
             ("header", [1]),
             ("header", header_of(drive) | {"mode": "flying"}),
+            ("header", header_of(drive) | {"mode": "localization", "model_id": ["x"]}),
+            ("header", header_of(drive) | {"mode": "localization", "model_id": "a\u0000b"}),
+            ("header", header_of(drive) | {"mode": "localization", "model_id": "nothing"}),
             ("scans", b" " * (LARGEST_MESSAGE + 1)),
             ("header", header_of(drive)),
             ("scans", {"t": 1}),
             ("scans", scan),
         ],
-        9,
+        12,
     )
     errors = [content["error"] for kind, content in answers if kind == "error"]
-    assert len(errors) == 7
+    assert len(errors) == 10
     assert sum("header first" in error for error in errors) == 1
     assert answers[-1] == ("ack", {"ack": scan["t"], "stored": 1, "duplicates": 0})
+
+
+def test_text_that_is_none_is_kept_as_it_came(
+    broker: int, served: TestClient, tmp_path: Path, drive: RobotLog
+) -> None:
+    topic = f"test/{tmp_path.name}/surrogate"
+    header = header_of(drive) | {"name": "\ud800", "note": "\ud800"}
+    scan = scan_record(next(iter(drive))) | {"note": "\udfff"}
+    _, taken = talk(broker, topic, [("header", header), ("scans", scan)], 2)
+    assert taken == ("ack", {"ack": scan["t"], "stored": 1, "duplicates": 0})
+    assert len(served.get("/api/live").json()) == 1
+
+
+def test_robots_with_the_same_header_have_sessions_of_their_own(
+    broker: int, served: TestClient, tmp_path: Path, drive: RobotLog
+) -> None:
+    scans = [scan_record(scan) for scan in drive]
+    for name, count in (("one", 10), ("two", 5)):
+        topic = f"test/{tmp_path.name}/{name}"
+        messages = [("header", header_of(drive)), ("scans", scans[:count])]
+        _, taken = talk(broker, topic, messages, 2)
+        assert taken[1]["stored"] == count
+    assert sorted(s["stored"] for s in served.get("/api/live").json()) == [5, 10]
+
+
+def test_an_ended_drive_does_not_begin_again_by_its_retained_header(
+    broker: int, served: TestClient, tmp_path: Path, drive: RobotLog
+) -> None:
+    topic = f"test/{tmp_path.name}/once"
+
+    async def header_left() -> bytes | None:
+        async with aiomqtt.Client("127.0.0.1", broker) as client:
+            await client.publish(f"{topic}/header", json.dumps(header_of(drive)), 1, retain=True)
+            await client.publish(f"{topic}/scans", json.dumps(scan_record(next(iter(drive)))), 1)
+            await client.publish(f"{topic}/end", b"", 1)
+            await asyncio.sleep(1.5)
+            await client.subscribe(f"{topic}/header")
+            try:
+                async with asyncio.timeout(1):
+                    async for message in client.messages:
+                        return bytes(message.payload)  # type: ignore[arg-type]
+            except TimeoutError:
+                pass
+            return None
+
+    time.sleep(0.5)
+    assert asyncio.run(header_left()) is None
+    assert len(served.get("/api/live").json()) == 1
 
 
 def test_an_address_that_is_none_is_said() -> None:
