@@ -159,10 +159,8 @@ def main() -> None:
     with ProcessPoolExecutor(arguments.jobs) as pool:
         for number, of_home in enumerate(pool.map(localized, jobs(arguments)), 1):
             found += of_home
-            print(
-                f"{number} models, {sum(f.method == 'default' for f in found)} drives", flush=True
-            )
-    print_tables(found, arguments.methods.split(","))
+            print(f"after {number} models:")
+            print_tables(found, arguments.methods.split(","))
 
 
 def print_tables(found: list[Found], methods: list[str]) -> None:
