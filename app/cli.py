@@ -14,6 +14,7 @@ from app.commands.localize import localize
 from app.commands.map import map_log
 from app.commands.model import model
 from app.commands.reproduce import reproduce
+from app.commands.rosbridge import rosbridge
 from app.commands.serve import serve
 from app.commands.simulate import simulate
 from app.commands.stream import stream
@@ -61,6 +62,7 @@ app.command("model")(model)
 app.command("localize")(localize)
 app.command("stream")(stream)
 app.command("bridge")(bridge)
+app.command("rosbridge")(rosbridge)
 app.command("token")(token)
 app.command("reproduce")(reproduce)
 
