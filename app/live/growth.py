@@ -118,5 +118,6 @@ class Growth:
         """Says when the map is late, and once more when it no longer is."""
         late = 0.0 if asked is None else time.monotonic() - asked
         if late > BEHIND_S or self._was_behind:
-            self._session.events.send({"type": "behind", "seconds": round(late, 2)})
+            told = round(late, 2) if late > BEHIND_S else 0.0
+            self._session.events.send({"type": "behind", "seconds": told})
         self._was_behind = late > BEHIND_S
