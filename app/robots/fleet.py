@@ -69,8 +69,7 @@ class RobotFleet:
             raise Conflict(f"{driving} robots drive already, as many as may; stop one first")
         self._starting += 1
         try:
-            robot = await Robot.start(new_id(), order, url)
-            await robot.ready()
+            robot = await _started(order, url)
         finally:
             self._starting -= 1
         if robot.ended is not None:
@@ -159,3 +158,14 @@ class RobotFleet:
         ended = [robot for robot in self.robots() if robot.ended is not None]
         for robot in ended[self._config.most_remembered :]:
             del self._robots[robot.id]
+
+
+async def _started(order: RobotOrder, url: str) -> Robot:
+    """A robot that has said how it stands, or has ended."""
+    robot = await Robot.start(new_id(), order, url)
+    try:
+        await robot.ready()
+    except asyncio.CancelledError:
+        await asyncio.shield(robot.stop())
+        raise
+    return robot

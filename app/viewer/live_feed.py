@@ -14,6 +14,7 @@ from app.live.session import LiveSession
 from app.viewer.live_track import LiveTrack
 from app.viewer.messages import Track
 from app.viewer.tab import Tab
+from app.viewer.tab_live import TabLive
 
 logger = logging.getLogger(__name__)
 
@@ -63,20 +64,23 @@ class LiveFeed:
                 case "belief":
                     self._believe(event)
                 case "map":
-                    for tab in self._tabs():
-                        tab.live_mapped()
+                    for tab, live in self._shown():
+                        live.mapped(tab.scene)
                 case "ended":
                     return True
         return False
 
     def _believe(self, event: Event) -> None:
         self.track.believe(event)
-        for tab in self._tabs():
-            tab.live_believed()
+        for tab, live in self._shown():
+            live.believed(tab.scene)
 
     def _draw(self, anew: bool = False) -> None:
-        for tab in self._tabs():
-            tab.live_moved(anew)
+        for tab, live in self._shown():
+            live.moved(tab.scene, anew)
+
+    def _shown(self) -> list[tuple[Tab, TabLive]]:
+        return [(tab, tab.live) for tab in self._tabs() if tab.live is not None]
 
 
 async def _all_waiting(listener: Listener) -> list[Event]:

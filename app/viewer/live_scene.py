@@ -14,11 +14,13 @@ import viser
 from app.viewer.beam_shapes import ECHO, MISS, UNSEEN, BeamPlan, arc, fan
 from app.viewer.belief_scene import NOSE
 from app.viewer.canvas import Canvas, turned
-from app.viewer.layers import BEAMS, ROBOT
+from app.viewer.layers import BEAMS, REGIONS, ROBOT
 from app.viewer.palette import Colour, linear
 from app.viewer.scene import sphere
 from core.geometry import FloatArray
 
+TENTATIVE: Colour = (150, 120, 60)
+TENTATIVE_WIDTH = 0.035
 WAY: Colour = (24, 92, 255)
 WAY_WIDTH, WAY_HEIGHT = 0.04, 0.05
 FAN_HEIGHT, ARC_HEIGHT, DOT_HEIGHT, DOT_RADIUS = 0.14, 0.17, 0.1, 0.028
@@ -32,6 +34,7 @@ FADES = (1.0, 0.5, 0.22)
 FAN_OPACITY, ARC_OPACITY, DOT_OPACITY = 0.17, 0.95, 0.7
 MOST_DOTS = 600
 """Echoes that are remembered as dots: about the last 20 s of twelve sonars."""
+_TENTATIVE = f"/{REGIONS}/tentative"
 _PIN = f"/{ROBOT}/pin"
 _FANS, _ARCS, _DOTS, _WAY = f"/{BEAMS}/fans", f"/{BEAMS}/arcs", f"/{BEAMS}/dots", f"/{ROBOT}/way"
 
@@ -80,6 +83,15 @@ class LiveScene:
         self._show_fans(plans[-1])
         self._show_arcs()
 
+    def show_tentative(self, outlines: Sequence[FloatArray], size: float) -> None:
+        """Closed outlines (K, 2) of parts that are no regions yet; `size`: of marks in this home."""
+        closed = [np.concatenate((outline, outline[:1])) for outline in outlines]
+        flat = [np.stack((line[:-1], line[1:]), axis=1) for line in closed]
+        segments = np.concatenate(flat) if flat else np.zeros((0, 2, 2))
+        raised = np.concatenate((segments, np.full((*segments.shape[:2], 1), WAY_HEIGHT)), axis=2)
+        if self._canvas.lines(_TENTATIVE, raised, TENTATIVE, TENTATIVE_WIDTH * size) is None:
+            self._canvas.remove(_TENTATIVE)
+
     def add_dots(self, plan: BeamPlan) -> None:
         """Remembers where echoes were heard."""
         along = np.column_stack((np.cos(plan.headings), np.sin(plan.headings)))
@@ -99,6 +111,7 @@ class LiveScene:
         self.show_pin(None)
         self.show_beams([])
         self.clear_dots()
+        self.show_tentative([], 1.0)
 
     def _make_pin(self) -> viser.FrameHandle:
         pin = self._canvas.group(_PIN)

@@ -15,6 +15,8 @@ PATH_STEP = 0.05
 """Metres between two points of the drawn trajectory."""
 LONGEST_STEP = 0.6
 """A robot does not drive further between two points (m): it was carried, or found elsewhere."""
+LEAST_CORRECTION = 0.01
+"""Metres or radians by which a frame has to move before anything is drawn elsewhere."""
 LOST = 0.5
 """A robot is drawn nowhere when it is at least so probable that it is nowhere in the map."""
 
@@ -25,12 +27,17 @@ class LiveTrack:
     A mapping robot is drawn where its corrected odometry says; one that is looked for in a model,
     where the latest belief put it, moved on by its odometry. Before the first belief, and while it is
     probably nowhere in the map, it is drawn nowhere.
+
+    Attributes:
+        times: of the scans.
+        found: how often a belief or drift correction has moved what was driven since.
     """
 
     def __init__(self, ring: SonarRing, localizes: bool) -> None:
         self.ring = ring
         self.localizes = localizes
         self.times: list[float] = []
+        self.found = 0
         self._odometry: list[FloatArray] = []
         self._ranges: list[FloatArray] = []
         self._poses: list[FloatArray | None] = []
@@ -58,13 +65,17 @@ class LiveTrack:
         self._beliefs.append(event)
         if not self.localizes:
             return
+        self.found += 1
         self._locate_from(event["t"])
 
     def correct(self, t: float, frame: list[float]) -> None:
         """Drift correction tells the pose (3,) of the odometry's frame in the map's since a time."""
+        moved = np.abs(np.array(frame, float) - self._frame).max()
+        if moved < LEAST_CORRECTION or self.localizes:
+            return
         self._frame = np.array(frame, float)
-        if not self.localizes:
-            self._locate_from(t)
+        self.found += 1
+        self._locate_from(t)
 
     def index_at(self, t: float | None) -> int:
         """The last scan that is not later than `t` (None: the last of all); 0 before the first."""

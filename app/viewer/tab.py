@@ -14,7 +14,6 @@ from app.viewer.camera_link import CameraLink
 from app.viewer.drawing import Drawing, NodeMark
 from app.viewer.drift_playback import DriftPlayback
 from app.viewer.layers import DEFAULT_LAYERS
-from app.viewer.live_show import LiveShow
 from app.viewer.live_track import LiveTrack
 from app.viewer.mailbox import Mailbox
 from app.viewer.messages import (
@@ -41,11 +40,10 @@ from app.viewer.moment_playback import FINISHED, MomentPlayback
 from app.viewer.picking import floor_point, picked_node
 from app.viewer.playback import Playback as PlaybackState
 from app.viewer.tab_camera import TabCamera, camera_view
+from app.viewer.tab_live import TabLive
 from app.viewer.tab_scene import TabScene
 from core.geometry import FloatArray
 
-_FIT_EVERY = 2.0
-"""Seconds: a robot that leaves the picture is in it again after this long at most."""
 _DEFAULT_HEIGHT = 800.0
 
 
@@ -69,8 +67,6 @@ class Tab:
     def __init__(self, token: str, track: LiveTrack | None = None) -> None:
         """`track`: of the live session that the view shows."""
         self.token = token
-        self.track = track
-        self.live = LiveShow()
         self.state = TabState()
         self.scene: TabScene | None = None
         self.mailbox: Mailbox | None = None
@@ -79,8 +75,8 @@ class Tab:
         self.moment = MomentPlayback()
         self.drift = DriftPlayback()
         self.camera_link = CameraLink(self._stand_as)
-        self._fitted_at = 0.0
         self.camera = TabCamera(self._outline, self._declutter)
+        self.live = None if track is None else TabLive(track, self.playback, self.camera)
 
     @property
     def connected(self) -> bool:
@@ -112,7 +108,8 @@ class Tab:
         self.playback.again(self.scene)
         self.moment.again(self.scene, state.theme)
         self.drift.again(self.scene, state.theme)
-        self._draw_live()
+        if self.live is not None:
+            self.live.join(self.scene)
         self.camera.join(self.scene)
         self.tell_ready()
 
@@ -140,8 +137,8 @@ class Tab:
             self.playback.again(self.scene, other_nodes=not _same_places(before, drawing.nodes))
             self.moment.again(self.scene, self.state.theme)
             self.drift.again(self.scene, self.state.theme)
-            if self.track is not None and not self.live.follow:
-                self.camera.fit_again(self.scene)
+            if self.live is not None:
+                self.live.redraw(self.scene)
             self.camera_moved()
 
     def handle(self, message: FromPage) -> None:
@@ -169,7 +166,8 @@ class Tab:
             case Moment():
                 self._show_moment(message)
             case Live():
-                self._show_live(message)
+                if self.live is not None:
+                    self.live.show(message, self.scene)
             case Pick():
                 self.state.picking = message.on
             case Drift():
@@ -197,34 +195,11 @@ class Tab:
             self._select(node)
             self.tell(Selected(node=node))
 
-    def live_moved(self, anew: bool) -> None:
-        """The live session has a scan more (or, `anew`, many)."""
-        if self.scene is None or self.track is None:
-            return
-        first = not self.live.drawn
-        self.live.draw(self.track, self.scene, anew)
-        if self.live.drawn and (first or time.monotonic() > self._fitted_at + _FIT_EVERY):
-            self._fitted_at = time.monotonic()
-            self.camera.fit_again(self.scene)
-        self._follow(self.scene, self.track)
-
-    def live_believed(self) -> None:
-        """The live session knows better where the robot is, and how sure that is."""
-        if not self.live.paused and self.live.at is None:
-            self._believe_live()
-            self._draw_live()
-
-    def live_mapped(self) -> None:
-        """What the robot has heard is in the map now."""
-        if self.scene is not None:
-            self.scene.live.clear_dots()
-
     def live_ended(self) -> None:
         """The live session is over; the model stays."""
-        if self.scene is not None:
-            self.playback.show(None, self.scene)
-            self.scene.live.clear()
-        self.track = None
+        if self.live is not None:
+            self.live.end(self.scene)
+        self.live = None
 
     def camera_moved(self) -> None:
         """The camera or the picture has changed: labels are laid out again, not too often."""
@@ -291,30 +266,8 @@ class Tab:
             self.scene.measure(points)
         self.tell(Measured(points=points, distance_m=distance))
 
-    def _show_live(self, message: Live) -> None:
-        self.live.told(message)
-        if message.at is not None:
-            self._believe_live()
-        self._draw_live()
-        if self.scene is not None and self.track is not None:
-            self._follow(self.scene, self.track)
-
-    def _draw_live(self) -> None:
-        if self.scene is not None and self.track is not None:
-            self.live.draw(self.track, self.scene, anew=True)
-
-    def _believe_live(self) -> None:
-        if self.track is not None and len(self.track):
-            belief = self.track.belief(self.track.index_at(self.live.at))
-            self.playback.show(belief, self.scene)
-
-    def _follow(self, scene: TabScene, track: LiveTrack) -> None:
-        target = self.live.camera(track, camera_view(scene.client))
-        if target is not None:
-            self.camera.follow(scene, target)
-
     def _play(self, message: Playback) -> None:
-        if self.track is not None:
+        if self.live is not None:
             return
         begins_or_ends = (message.belief is None) != (self.playback.belief is None)
         self.playback.show(message.belief, self.scene)
@@ -327,8 +280,8 @@ class Tab:
 
     def _outline(self, scene: TabScene) -> FloatArray:
         """(K, 2) what must be in the picture."""
-        if self.track is not None:
-            return self.live.outline(self.track, scene.drawing)
+        if self.live is not None:
+            return self.live.outline(scene.drawing, self.playback.outline(scene.drawing))
         return self.playback.outline(scene.drawing)
 
     def _declutter(self, view: View) -> None:

@@ -17,7 +17,7 @@ export function livePanel(root) {
   const belief = h("section", { class: "live-belief" });
   const robot = h("section", { class: "live-robot" });
   const keep = h("div", { class: "live-keep" });
-  replace(root, head, facts, belief, robot, keep);
+  replace(root, head, facts, keep, belief, robot);
   liveBelief(belief);
   liveRobot(robot);
   watch(["live"], ({ live }) => {
@@ -31,25 +31,27 @@ export function livePanel(root) {
 }
 
 function heading(live) {
-  const doing = live.mode === "mapping" ? "Maps a home; the model grows with the drive." : "Looks for itself in a model.";
   return [
-    h("h2", {}, h("span", { class: "dot", dataset: { kind: live.status === "running" ? "busy" : "idle" } }), live.status === "running" ? "Live" : "Is being finished…"),
+    h("h2", {}, h("span", { class: "dot", dataset: { kind: live.status === "running" ? "busy" : "idle" } }), live.status !== "running" ? "Is being finished…" : live.mode === "mapping" ? "Live: maps a home" : "Live: where is it?"),
     h("h3", { title: live.name }, live.name),
-    h("p", { class: "muted" }, doing, live.mode === "localization" && [" ", h("a", { href: link.model(live.model_id) }, "Open the model")]),
+    live.mode === "localization" && h("p", { class: "muted" }, "Looks for itself in ", h("a", { href: link.model(live.model_id) }, "its model"), "."),
   ];
 }
 
 function figures({ live, livePose, liveBehind, liveMapped, robot }) {
   const waiting = robot?.waiting ?? 0;
-  const knows = liveMapped === null || !livePose ? "–" : `knows all but the last ${duration(Math.max(0, livePose.t - liveMapped))}`;
+  const stored = [count(live.stored, "scan"), waiting > 0 && `, ${waiting} on the way`].filter(Boolean).join("");
   return [
-    fact("Stored", count(live.stored, "scan"), "confirmed: they are on the disk"),
-    fact("Sent, not confirmed", robot ? count(waiting, "scan") : "–", "what a crash could lose", waiting > LATE_SCANS),
-    live.mode === "mapping" && fact("Model", liveBehind > 0 ? `waits ${liveBehind.toFixed(1)} s for its turn` : knows, "how far the map is behind the scans", liveBehind > 0),
-    fact("Driven", livePose ? metres(livePose.distance_m) : "–"),
-    fact("Time", livePose ? duration(livePose.t) : "–"),
-    fact("Odometry", livePose ? `x ${livePose.pose[0].toFixed(2)}, y ${livePose.pose[1].toFixed(2)}, ${degrees(livePose.pose[2])}` : "–", "where the wheels believe to be"),
+    fact("Stored", stored, "confirmed: they are on the disk; what is on the way a crash could lose", waiting > LATE_SCANS),
+    live.mode === "mapping" && fact("Model", lag(livePose, liveBehind, liveMapped), "how far the map is behind the scans", liveBehind > 0),
+    livePose && fact("Driven", `${metres(livePose.distance_m)} in ${duration(livePose.t)}`),
+    livePose && fact("Odometry", `x ${livePose.pose[0].toFixed(2)}, y ${livePose.pose[1].toFixed(2)}, ${degrees(livePose.pose[2])}`, "where the wheels believe to be"),
   ];
+}
+
+function lag(livePose, liveBehind, liveMapped) {
+  if (liveBehind > 0) return `waits ${liveBehind.toFixed(1)} s for its turn`;
+  return liveMapped === null || !livePose ? "–" : `${duration(Math.max(0, livePose.t - liveMapped))} behind`;
 }
 
 function keeping(live) {
@@ -59,10 +61,9 @@ function keeping(live) {
     if (await confirmDialog("End the session?", text, "End it")) finish();
   };
   return [
-    h("h2", {}, "Keep"),
     h("p", { class: "card-buttons" },
       h("button", { type: "button", class: "button", title: "A log and a model of what there is so far; the session goes on", onclick: saveSoFar }, "Save so far"),
-      h("a", { class: "button", href: files.liveLog(live.id), download: "" }, "Download the log"),
+      h("a", { class: "button", href: files.liveLog(live.id), download: "" }, "Get the log"),
       h("button", { type: "button", class: "button", disabled: live.status !== "running", onclick: end }, "End…")),
   ];
 }
