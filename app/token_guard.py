@@ -20,8 +20,8 @@ from app.security import SAFE_METHODS
 
 LOGIN, LOGOUT = "/login", "/logout"
 OPEN_PATHS = frozenset({LOGIN, LOGOUT, "/api/health", "/logo.svg", "/css/base.css"})
-WRITING_SOCKETS = "/scans"
-"""The end of the paths of WebSockets that change something; the others show."""
+SHOWING = ("/view/", "/events")
+"""Beginning or end of the paths of WebSockets that only show; any other may change something."""
 COOKIE = "echorooms_token"
 COOKIE_S = 30 * 24 * 3600
 LARGEST_FORM = 4096
@@ -61,7 +61,9 @@ class TokenGuard:
             await (refusal or self.app)(scope, receive, send)
 
     async def _socket(self, scope: Scope, receive: Receive, send: Send, access: Access) -> None:
-        wanted = Right.WRITE if scope["path"].endswith(WRITING_SOCKETS) else Right.READ
+        path: str = scope["path"]
+        shows = path.startswith(SHOWING[0]) or path.endswith(SHOWING[1])
+        wanted = Right.READ if shows else Right.WRITE
         if access.right_of(token_of(Headers(scope=scope))) >= wanted:
             await self.app(scope, receive, send)
             return

@@ -38,9 +38,9 @@ async def _follow(client: aiomqtt.Client, session: LiveSession, settings: Settin
     name = topic_name(session.record.origin.rpartition("/")[2] or session.record.name)
     topic = f"{settings.mqtt_topic}/{name}/room"
     if settings.home_assistant:
-        config = discovery(session.record.name, name, topic)
-        place = f"homeassistant/sensor/echorooms_{name}/config"
-        await client.publish(place, json.dumps(config), qos=1, retain=True)
+        for kind, config in discovery(session.record.name, name, topic).items():
+            place = f"homeassistant/sensor/echorooms_{name}/{kind}/config"
+            await client.publish(place, json.dumps(config), qos=1, retain=True)
     listener = session.events.listen()
     try:
         while (event := await listener.take())["type"] != "ended":
@@ -63,17 +63,25 @@ def room_of(belief: dict[str, Any]) -> dict[str, Any]:
     }
 
 
-def discovery(name: str, key: str, topic: str) -> dict[str, Any]:
-    """The retained message from which Home Assistant makes a sensor."""
+def discovery(name: str, key: str, topic: str) -> dict[str, dict[str, Any]]:
+    """The retained messages, by sensor, from which Home Assistant makes a robot with two sensors."""
+    device = {"identifiers": [f"echorooms_{key}"], "name": name, "manufacturer": "EchoRooms"}
+
+    def sensor(kind: str, what: str, template: str) -> dict[str, Any]:
+        return {
+            "name": what,
+            "unique_id": f"echorooms_{key}_{kind}",
+            "object_id": f"{key}_{kind}",
+            "state_topic": topic,
+            "value_template": template,
+            "device": device,
+        }
+
+    room = sensor("room", "Room", "{{ value_json.room }}")
+    confidence = sensor("confidence", "Confidence", "{{ (100 * value_json.probability) | round }}")
     return {
-        "name": f"Room of {name}",
-        "unique_id": f"echorooms_{key}_room",
-        "object_id": f"{key}_room",
-        "state_topic": topic,
-        "value_template": "{{ value_json.room }}",
-        "json_attributes_topic": topic,
-        "icon": "mdi:robot-vacuum",
-        "device": {"identifiers": [f"echorooms_{key}"], "name": name, "manufacturer": "EchoRooms"},
+        "room": room | {"json_attributes_topic": topic, "icon": "mdi:robot-vacuum"},
+        "confidence": confidence | {"unit_of_measurement": "%", "state_class": "measurement"},
     }
 
 

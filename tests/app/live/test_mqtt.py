@@ -17,7 +17,7 @@ import pytest
 from fastapi.testclient import TestClient
 
 from app.live.mqtt_link import LARGEST_MESSAGE, Broker
-from app.live.mqtt_rooms import room_of, topic_name
+from app.live.mqtt_rooms import discovery, room_of, topic_name
 from app.main import create_app
 from app.settings import Settings
 from core.errors import InputError
@@ -214,3 +214,14 @@ def test_a_room_is_told_by_its_name_only_while_it_is_probable() -> None:
 def test_a_name_becomes_one_level_of_a_topic() -> None:
     assert topic_name("paper home, tour/1 #+") == "paper_home_tour_1"
     assert topic_name("/#") == "robot"
+
+
+def test_home_assistant_is_told_of_a_device_with_room_and_confidence() -> None:
+    sensors = discovery("Robbie 2", "Robbie_2", "echorooms/Robbie_2/room")
+    assert set(sensors) == {"room", "confidence"}
+    assert {s["unique_id"] for s in sensors.values()} == {
+        "echorooms_Robbie_2_room",
+        "echorooms_Robbie_2_confidence",
+    }
+    assert sensors["room"]["device"] == sensors["confidence"]["device"]
+    assert sensors["confidence"]["unit_of_measurement"] == "%"
