@@ -129,8 +129,10 @@ function hear(here, event) {
 async function ended(here) {
   here.over = true;
   refreshLists();
-  if (get().robot?.task === "waiting") return;
   await attempt(async () => {
+    const { robot } = get();
+    const drives = robot && (await api.robot(robot.id).then((answer) => !answer.ended, () => false));
+    if (drives) return; // `askRobot` follows it to its next session, or sees it end
     const live = await api.live(here.id);
     if (shown === here) leaveFor(live);
   });

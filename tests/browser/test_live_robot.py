@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Iterator
 
 import pytest
 
@@ -22,11 +23,18 @@ def wait_for(product, robot: str, holds) -> dict:
     return found
 
 
-def test_a_robot_maps_is_named_a_room_and_finds_itself_again(product, open_tab):
+@pytest.fixture
+def robot(product) -> Iterator[dict]:
+    """A robot that maps the paper's home; gone afterwards, whatever happens."""
     order = {"home": "paper", "seed": 3, "speed": 8, "odometry": "calibrated"}
     made = product.api.post("/robots", json=order)
     assert made.status_code == 201, made.text
-    robot, session = made.json()["id"], made.json()["session_id"]
+    yield made.json()
+    product.api.delete(f"/robots/{made.json()['id']}")
+
+
+def test_a_robot_maps_is_named_a_room_and_finds_itself_again(product, robot, open_tab):
+    robot, session = robot["id"], robot["session_id"]
     page = open_tab(f"{product.url}/{COARSE}#/live/{session}")
     rows = page.locator("tr[data-node]")
     expect(rows.first).to_be_visible(timeout=PATIENCE_MS)
@@ -51,4 +59,3 @@ def test_a_robot_maps_is_named_a_room_and_finds_itself_again(product, open_tab):
     while bars.all_inner_texts() == before:
         assert time.monotonic() < end
         page.wait_for_timeout(300)
-    assert product.api.delete(f"/robots/{robot}").status_code == 204

@@ -47,7 +47,7 @@ def test_a_label_is_trimmed_stored_and_found(naming: Naming) -> None:
     assert answer.json()["nodes"][1] == node | {"label": "kitchen"}
     assert naming.model()["labels"] == ["kitchen"]
     found = naming.client.get("/api/models?q=KITCH").json()
-    assert [model["id"] for model in found] == [naming.model()["id"]]
+    assert naming.model()["id"] in [model["id"] for model in found]
 
 
 def test_null_and_blanks_take_a_label_away(naming: Naming) -> None:
