@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 from typing import Any
 
+from app.errors import Problem
 from app.live.session import LiveSession
 from app.live.workers import LiveWorkers
 from app.services import Services
@@ -30,7 +31,8 @@ class Growth:
         self._workers = workers
         self._news = asyncio.Event()
         self._since: float | None = None
-        self._was_behind = False
+        self._was_behind = self._grown = False
+        self._model: asyncio.Task[None] | None = None
         self._task = asyncio.create_task(self._grow(), name=f"grow {session.record.id}")
         self.look()
 
@@ -42,8 +44,10 @@ class Growth:
 
     async def close(self) -> None:
         """Stops; the worker forgets the session."""
-        self._task.cancel()
-        await asyncio.wait([self._task])
+        running = [task for task in (self._task, self._model) if task is not None]
+        for task in running:
+            task.cancel()
+        await asyncio.wait(running)
         with contextlib.suppress(EchoRoomsError):
             await self._workers.forget(self._session.record.id)
 
@@ -67,27 +71,44 @@ class Growth:
         """Takes in some scans; whether there are more."""
         services, session = self._services, self._session
         record = session.record
-        with services.folder.temporary() as temp:
-            arguments = {
-                "recording": str(session.recording.path),
-                "mode": record.mode,
-                "size": session.recording.size,
-                "out": str(temp / "model"),
-            }
-            if record.mode == "localization":
-                folder = await asyncio.to_thread(services.models.folder, record.model_id)
-                arguments["model"] = str(folder)
-            result = await self._workers.run(record.id, "advance", arguments)
-            if "frame" in result:
-                session.frame = result["frame"]
-            if result["scans"]:
-                taken_in = {"type": "taken_in", "t": result["t"], "frame": session.frame}
-                session.events.send(taken_in)
-            if "facts" in result:
-                await self._publish(temp / "model", result)
-            if "belief" in result:
-                session.events.send(await asyncio.to_thread(self._belief, result["belief"]))
+        arguments = {
+            "recording": str(session.recording.path),
+            "mode": record.mode,
+            "size": session.recording.size,
+        }
+        if record.mode == "localization":
+            folder = await asyncio.to_thread(services.models.folder, record.model_id)
+            arguments["model"] = str(folder)
+        result = await self._workers.run(record.id, "advance", arguments)
+        if "frame" in result:
+            session.frame = result["frame"]
+        if result["scans"]:
+            session.events.send({"type": "taken_in", "t": result["t"], "frame": session.frame})
+        if "belief" in result:
+            session.events.send(await asyncio.to_thread(self._belief, result["belief"]))
+        if result.get("grown"):
+            self._grown = True
+        if self._grown and not result["behind"] and (self._model is None or self._model.done()):
+            self._grown = False
+            self._model = asyncio.create_task(self._make_model(), name=f"model {record.id}")
         return bool(result["behind"])
+
+    async def _make_model(self) -> None:
+        """Makes the model anew as soon as no scan of any session waits for the worker."""
+        record = self._session.record
+        try:
+            with self._services.folder.temporary() as temp:
+                out = {"out": str(temp / "model")}
+                result = await self._workers.run(record.id, "model", out, urgent=False)
+                await self._publish(temp / "model", result)
+        except EchoRoomsError as error:
+            logger.info("live session %s: no model (%s)", record.id, error)
+        except Problem as problem:
+            logger.info("live session %s: no model (%s)", record.id, problem.detail)
+        except Exception:
+            logger.exception("live session %s: no model", record.id)
+        if self._grown:
+            self.look()
 
     async def _publish(self, made: Path, result: dict[str, Any]) -> None:
         models, record, facts = self._services.models, self._session.record, result["facts"]

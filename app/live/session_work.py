@@ -9,6 +9,7 @@ from typing import Any, Protocol
 from app.jobs.tasks import Arguments, Result
 from app.jobs.tasks.localize import without_labels
 from app.storage.model_facts import facts_of
+from core.errors import InputError
 from core.geometry import FloatArray, compose, inverse
 from core.log_readers.native import parse_header, parse_scan
 from core.pipeline.growing_drive import GrowingDrive
@@ -24,16 +25,23 @@ MOST_SCANS = 60
 class SessionWork(Protocol):
     """The state of a session in a worker."""
 
-    def advance(self, size: int, out: str) -> Result:
+    def advance(self, size: int) -> Result:
         """Takes in scans that are recorded and not taken in yet, at most `MOST_SCANS`.
 
         Args:
             size: bytes of the recording that are safe.
-            out: a folder that does not exist; a model that has grown is written there.
 
         Returns:
             `scans` taken in, `behind`: bytes still to be read, `t` of the last scan, `frame`: pose
-            of the odometry's frame in the map's, `facts` of a written model, `belief`: a step.
+            of the odometry's frame in the map's, `grown`: a modelling step was taken, `belief`: a
+            localization step.
+        """
+
+    def model(self, out: str) -> Result:
+        """Writes the model as it is now to a folder that does not exist.
+
+        Returns:
+            `facts` of the model, `t` of the last scan in it.
         """
 
 
@@ -77,23 +85,23 @@ class MappingWork:
     def __init__(self, recording: Reader) -> None:
         self._recording = recording
         self._drive = GrowingDrive(recording.ring, ModellingOptions())
-        self._stepped = False
+        self._t = 0.0
 
-    def advance(self, size: int, out: str) -> Result:
+    def advance(self, size: int) -> Result:
         """See `SessionWork.advance`."""
         scans = self._recording.scans(size)
-        for scan in scans:
-            self._stepped = self._drive.add(scan) or self._stepped
-        behind = self._recording.behind(size)
-        result: dict[str, Any] = {"scans": len(scans), "behind": behind}
+        steps = [self._drive.add(scan) for scan in scans]
+        result: dict[str, Any] = {"scans": len(scans), "behind": self._recording.behind(size)}
         if scans:
+            self._t = scans[-1].t
             frame = compose(self._drive.pose, inverse(scans[-1].odometry))
-            result |= {"t": scans[-1].t, "frame": frame.tolist()}
-        if self._stepped and behind == 0:
-            self._stepped = False
-            write_model(self._drive.model(self._recording.name), Path(out))
-            result["facts"] = facts_of(Path(out))
+            result |= {"t": self._t, "frame": frame.tolist(), "grown": any(steps)}
         return result
+
+    def model(self, out: str) -> Result:
+        """See `SessionWork.model`."""
+        write_model(self._drive.model(self._recording.name), Path(out))
+        return {"facts": facts_of(Path(out)), "t": self._t}
 
 
 class LocalizationWork:
@@ -105,7 +113,11 @@ class LocalizationWork:
         self._state = self._localizer.start()
         self._frame: FloatArray | None = None
 
-    def advance(self, size: int, out: str) -> Result:
+    def model(self, out: str) -> Result:
+        """There is none to be written: the robot is looked for in one that is made."""
+        raise InputError("a localization makes no model")
+
+    def advance(self, size: int) -> Result:
         """See `SessionWork.advance`; of several steps the last one counts."""
         scans = self._recording.scans(size)
         result: dict[str, Any] = {"scans": len(scans), "behind": self._recording.behind(size)}

@@ -3,12 +3,41 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
+from collections.abc import AsyncIterator
 from typing import Any
 
 from app.jobs.worker_process import TaskLimits, WorkerDiedError, WorkerProcess
 from core.progress import no_progress
 
 MODULE = "app.live.worker"
+LOOK_S = 0.01
+"""Between two looks of what can wait whether anything urgent is left."""
+
+
+class Turns:
+    """Who may use a process: scans first, models when no scan waits."""
+
+    def __init__(self) -> None:
+        self._lock = asyncio.Lock()
+        self._urgent = 0
+
+    @contextlib.asynccontextmanager
+    async def turn(self, urgent: bool) -> AsyncIterator[None]:
+        """The process is one's own inside."""
+        self._urgent += urgent
+        try:
+            await self._lock.acquire()
+        finally:
+            self._urgent -= urgent
+        while not urgent and self._urgent:
+            self._lock.release()
+            await asyncio.sleep(LOOK_S)
+            await self._lock.acquire()
+        try:
+            yield
+        finally:
+            self._lock.release()
 
 
 class LiveWorkers:
@@ -17,17 +46,19 @@ class LiveWorkers:
     def __init__(self, most: int, limits: TaskLimits) -> None:
         self._limits = limits
         self._processes: list[WorkerProcess | None] = [None] * most
-        self._locks = [asyncio.Lock() for _ in range(most)]
+        self._turns = [Turns() for _ in range(most)]
         self._place: dict[str, int] = {}
 
-    async def run(self, session_id: str, task: str, arguments: dict[str, Any]) -> dict[str, Any]:
-        """The result of a task of a session, after those that its process was asked before.
+    async def run(
+        self, session_id: str, task: str, arguments: dict[str, Any], urgent: bool = True
+    ) -> dict[str, Any]:
+        """The result of a task of a session; one that is not urgent lets all others go first.
 
         Raises:
             EchoRoomsError: the task failed or its process was lost; the next one starts another.
         """
         place = self._place.setdefault(session_id, self._emptiest())
-        async with self._locks[place]:
+        async with self._turns[place].turn(urgent):
             process = self._processes[place]
             if process is None or not process.alive:
                 process = await WorkerProcess.start(warm=False, module=MODULE)
