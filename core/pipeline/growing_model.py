@@ -88,7 +88,7 @@ class GrowingModel:
             self._key = pose
         if np.floor(self.driven / step) <= before:
             return False
-        moment = self._moment(self._map.local())
+        moment = self.moment(self._map.local())
         self.state = self.method.extract(self.state, moment, self.method.config)
         return True
 
@@ -106,15 +106,12 @@ class GrowingModel:
         """The map of everything so far."""
         return self._map.whole()
 
-    def finished(self, result: MapResult) -> ExtractionState:
-        """What the regions are if the drive ends here; the drive itself can go on.
+    def finished(self, moment: Moment) -> ExtractionState:
+        """What the regions are if the drive ends at a moment; the drive itself can go on."""
+        return self.method.finish(self.state, moment, self.method.config)
 
-        Args:
-            result: the floor of everything so far.
-        """
-        return self.method.finish(self.state, self._moment(result), self.method.config)
-
-    def _moment(self, result: MapResult) -> Moment:
+    def moment(self, result: MapResult) -> Moment:
+        """Now, as it is seen on a map: where the robot is and what it knows."""
         return Moment(self._t[-1], self.driven, self._poses[-1], result.grid, result.confidence)
 
 

@@ -107,12 +107,13 @@ def found_so_far(growing: GrowingModel, whole: MapResult | None = None) -> Found
     whole = whole or growing.whole_map()
     floor = floor_of_drive(whole.grid, growing.trajectory)
     grid = restricted(whole.grid, floor)
-    state = growing.finished(replace(whole, grid=grid))
+    moment = growing.moment(replace(whole, grid=grid))
+    state = growing.finished(moment)
     regions = region_image(state, grid)
     if floor.any() and not regions.any():
         return number_found(whole.grid, floor, 0, no_progress)
     by_method = isinstance(growing.method.config, PaperConfig)
-    rooms = regions if by_method else suggested_rooms(grid, regions)
+    rooms = regions if by_method else suggested_rooms(regions, moment.rooms)
     node_ids = {int(value): f"n{value}" for value in np.unique(regions) if value > 0}
     parameters = asdict(growing.method.config)
     came_from = {r.number: tuple(f"n{parent}" for parent in r.parents) for r in state.regions}

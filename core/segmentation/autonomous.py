@@ -8,8 +8,8 @@ differs, and why (measured: eq. 7 with thin walls hardly ever exceeds 0.2):
 - the tentative division goes on until every part is convex (`convex_division.py`), instead of one
   normalized cut in two; it divides only the space around the robot that is left;
 - a part whose rim is still unexplored waits: it would change right after its extraction;
-- at the end extracted regions are brought up to date with the latest map (`latest_regions.py`), so
-  that early errors do not stay.
+- at the end the borders of all regions are chosen together on the latest map (`latest_regions.py`),
+  so that early errors do not stay and no more regions are left than convexity asks for.
 
 A step is a function of the state and the map at that moment. The caller takes steps at fixed
 distances of the drive, so that logs may be cut anywhere.
@@ -30,7 +30,7 @@ from core.segmentation.decision import Decision, measure_cut
 from core.segmentation.extraction_state import ExtractionState, painted
 from core.segmentation.hidden_pairs import hidden_pairs
 from core.segmentation.inheritance import reopened, with_region
-from core.segmentation.latest_regions import revised
+from core.segmentation.latest_regions import RevisionConfig, revised
 from core.segmentation.moment import Moment
 
 
@@ -45,6 +45,7 @@ class AutonomousConfig:
         most_frontier: share of a part's rim that may be unexplored.
         convexity: how C1 and C2 are counted, which the history tells beside the hidden pairs.
         division: of the tentative division; its `most_hidden` is c_t of eq. 9.
+        revision: of the regions at the end of the drive.
     """
 
     step: float = 2.5
@@ -53,6 +54,7 @@ class AutonomousConfig:
     most_frontier: float = 0.1
     convexity: ConvexityConfig = field(default_factory=ConvexityConfig)
     division: DivisionConfig = field(default_factory=DivisionConfig)
+    revision: RevisionConfig = field(default_factory=RevisionConfig)
 
 
 def extract(
@@ -116,7 +118,7 @@ def finish(
         decisions.append(decision)
     said = "end of the drive: " + _summary(decisions)
     state = _recorded(state, moment, found, decisions, config, said)
-    latest = revised(state, grid, config.division, config.convexity)
+    latest = revised(state, grid, moment.rooms, config.revision, config.convexity)
     if not latest.decisions:
         return latest.state
     said = f"{len(latest.decisions)} regions were cut or joined on the map of the whole drive"

@@ -1,4 +1,9 @@
-"""The extracted regions on the latest map: early maps have fans and gaps that are known better now."""
+"""The extracted regions on the latest map: early maps have fans and gaps that are known better now.
+
+Regions are extracted one after the other, each cut off what was left at that moment. At the end the
+whole is known: `revised` chooses all borders together (`convex_grouping.py`), and the regions of the
+drive live on as the heirs of their numbers.
+"""
 
 from __future__ import annotations
 
@@ -7,10 +12,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from scipy import ndimage
 
-from core.geometry import BoolArray, IntArray
+from core.geometry import IntArray
 from core.mapping import OccupancyGrid
-from core.segmentation.convex_division import DivisionConfig, divided
-from core.segmentation.convex_join import convex_groups
+from core.segmentation.convex_grouping import GroupingConfig, grouped
 from core.segmentation.convexity import ConvexityConfig, convexity
 from core.segmentation.decision import Decision, measure_cut
 from core.segmentation.extraction_state import (
@@ -20,6 +24,9 @@ from core.segmentation.extraction_state import (
     painted,
 )
 from core.segmentation.hidden_pairs import hidden_pairs
+from core.segmentation.label_growth import grown
+from core.segmentation.mutual_visibility import sight_blockers
+from core.segmentation.small_cells import SmallCellConfig, small_cells
 
 
 def region_image(state: ExtractionState, grid: OccupancyGrid, reach: float = 1.0) -> IntArray:
@@ -35,19 +42,24 @@ def region_image(state: ExtractionState, grid: OccupancyGrid, reach: float = 1.0
             sizes = np.bincount(pieces.ravel())
             sizes[0] = 0
             labels[(pieces > 0) & (pieces != sizes.argmax())] = 0
-    return _grown(labels, grid.free, int(reach / grid.geometry.resolution))
+    return grown(labels, grid.free, int(reach / grid.geometry.resolution))
 
 
-def _grown(labels: IntArray, free: BoolArray, steps: int) -> IntArray:
-    """Labels spread over unlabelled free cells, a cell a step, never through walls."""
-    labels = labels.copy()
-    for _ in range(steps):
-        spread = ndimage.grey_dilation(labels, footprint=ndimage.generate_binary_structure(2, 1))
-        new = free & (labels == 0) & (spread > 0)
-        if not new.any():
-            break
-        labels[new] = spread[new]
-    return labels
+@dataclass(frozen=True)
+class RevisionConfig:
+    """Parameters of the division at the end of a drive.
+
+    Attributes:
+        cells: what regions are put together from.
+        grouping: what makes regions good.
+        least_part: share of a region that another one must have given to be named as its parent.
+        seed: of the search for the best regions.
+    """
+
+    cells: SmallCellConfig = field(default_factory=SmallCellConfig)
+    grouping: GroupingConfig = field(default_factory=GroupingConfig)
+    least_part: float = 0.1
+    seed: int = 0
 
 
 @dataclass(frozen=True)
@@ -66,58 +78,78 @@ class Revision:
 
 
 def revised(
-    state: ExtractionState, grid: OccupancyGrid, division: DivisionConfig, counted: ConvexityConfig
+    state: ExtractionState,
+    grid: OccupancyGrid,
+    rooms: IntArray,
+    config: RevisionConfig,
+    counted: ConvexityConfig,
 ) -> Revision:
-    """Every region on the latest map, cut where it is not convex there, joined where it can be.
+    """The regions divided anew on the latest map, as few and as convex as it allows.
 
-    The largest part of a region keeps its number, and of regions that are joined the largest does;
-    the others are named as where it came from.
+    Each region of the new division is the heir of the one that it shares most floor with; what has
+    no heir left is a new number. Whoever else gave a part worth naming is named as where it came
+    from.
 
     Args:
         state: the regions as they were extracted.
         grid: the latest map.
-        division: when a region is convex.
+        rooms: (rows, cols) suggested rooms on it, 0 = none.
+        config: how the division is made.
         counted: how C1 and C2 are counted.
     """
     labels = region_image(state, grid)
-    was, number, masks = _cut(labels, grid, division, state.next_number)
-    border = round(division.least_border / grid.geometry.resolution)
-    groups = convex_groups(masks, ~grid.free, division.most_hidden, division.pairs, border)
+    resolution, blocked = grid.geometry.resolution, sight_blockers(grid)
+    cells = small_cells(labels > 0, blocked, grid, config.cells)
+    rng = np.random.default_rng(config.seed)
+    clusters = grouped(cells, rooms, blocked, resolution, config.grouping, rng)
+    heirs = _heirs(labels, clusters, config.least_part, state.next_number)
     regions, decisions = [], []
-    clusters = np.zeros(labels.shape, np.int64)
-    for cluster, group in enumerate(groups, 1):
-        mask = np.logical_or.reduce([masks[i] for i in group])
-        clusters[mask] = cluster
-        own = number[group[0]]
-        parents = tuple(sorted({was[i] for i in group} - {own}))
-        cells = np.argwhere(mask) + lattice_corner(grid.geometry)
-        before = next((r.parents for r in state.regions if r.number == own), ())
-        regions.append(ExtractedRegion(own, cells, (*before, *parents), is_open=True))
-        if parents:
-            whole = mask | (labels == was[group[0]])
+    for cluster, heir in enumerate(heirs, 1):
+        mask = clusters == cluster
+        before = next((r.parents for r in state.regions if r.number == heir.number), ())
+        parents = (*before, *(p for p in heir.parents if p not in before))
+        where = np.argwhere(mask) + lattice_corner(grid.geometry)
+        regions.append(ExtractedRegion(heir.number, where, parents, is_open=True))
+        if heir.parents:
+            whole = mask | np.isin(labels, (heir.number, *heir.parents))
             c1 = convexity((whole,), grid, counted)
             measures = measure_cut(mask, whole, c1, grid, counted)
-            why = "convex together" if len(group) > 1 else "cut off: not convex on the latest map"
-            hidden = hidden_pairs(mask, ~grid.free, division.pairs)
-            decisions.append(Decision(cluster, measures, hidden, True, why, own, parents))
-    following = max([state.next_number, *(n + 1 for n in number)])
+            hidden = hidden_pairs(mask, blocked)
+            decisions.append(
+                Decision(cluster, measures, hidden, True, heir.why, heir.number, heir.parents)
+            )
+    following = max([state.next_number, *(region.number + 1 for region in regions)])
     state = replace(state, regions=tuple(regions), next_number=following)
     return Revision(state, clusters, decisions)
 
 
-def _cut(
-    labels: IntArray, grid: OccupancyGrid, division: DivisionConfig, following: int
-) -> tuple[list[int], list[int], list[BoolArray]]:
-    """All regions cut until convex: the region that each part was, its number now, its mask."""
-    was, number, masks = [], [], []
-    for value in np.unique(labels[labels > 0]):
-        mask = labels == value
-        parts = divided(mask, ~grid.free, grid.geometry.resolution, division)
-        sizes = np.bincount(parts[mask], minlength=2)
-        for part in np.argsort(-sizes[1:], kind="stable") + 1:
-            first = part == sizes[1:].argmax() + 1
-            was.append(int(value))
-            number.append(int(value) if first else following)
-            following += not first
-            masks.append(parts == part)
-    return was, number, masks
+@dataclass(frozen=True)
+class _Heir:
+    """The number of a region of the new division, whom it came from besides, and why."""
+
+    number: int
+    parents: tuple[int, ...]
+    why: str
+
+
+def _heirs(labels: IntArray, clusters: IntArray, least: float, following: int) -> list[_Heir]:
+    """For clusters 1, 2, ...: the largest common floor gives a number on first, each only once."""
+    shared = np.zeros((int(clusters.max(initial=0)) + 1, int(labels.max(initial=0)) + 1), np.int64)
+    np.add.at(shared, (clusters.ravel(), labels.ravel()), 1)
+    shared[0], shared[:, 0] = 0, 0
+    number = np.zeros(len(shared), np.int64)
+    for at in np.argsort(-shared, axis=None, kind="stable"):
+        cluster, region = np.unravel_index(at, shared.shape)
+        if shared[cluster, region] and not number[cluster] and region not in number:
+            number[cluster] = region
+    heirs = []
+    for cluster in range(1, len(shared)):
+        parts = shared[cluster] / shared[cluster].sum()
+        own = int(number[cluster])
+        parents = tuple(int(v) for v in np.flatnonzero(parts >= least) if v != own)
+        why = (
+            "convex together on the latest map" if own else "cut off: not convex on the latest map"
+        )
+        heirs.append(_Heir(own or following, parents, why))
+        following += not own
+    return heirs

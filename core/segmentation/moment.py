@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
-from core.geometry import FloatArray
+import numpy as np
+
+from core.geometry import FloatArray, IntArray
 from core.mapping import OccupancyGrid
+from core.segmentation.automatic import segment_automatically
 
 
 @dataclass(frozen=True)
@@ -25,3 +29,10 @@ class Moment:
     pose: FloatArray
     grid: OccupancyGrid
     confidence: FloatArray
+
+    @cached_property
+    def rooms(self) -> IntArray:
+        """(rows, cols) the rooms that automatic segmentation sees on the map, 0 = none."""
+        if not self.grid.free.any():
+            return np.zeros(self.grid.geometry.shape, np.int64)
+        return segment_automatically(self.grid).rooms

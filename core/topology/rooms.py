@@ -5,19 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from core.geometry import IntArray
-from core.mapping import OccupancyGrid
-from core.segmentation.automatic import AutomaticConfig, segment_automatically
 
 
-def suggested_rooms(
-    grid: OccupancyGrid, regions: IntArray, config: AutomaticConfig | None = None
-) -> IntArray:
+def suggested_rooms(regions: IntArray, seen: IntArray) -> IntArray:
     """Label image (rows, cols) of rooms, each a union of the given regions.
 
-    The rooms that automatic segmentation sees on the map; every region goes to the one that holds
-    most of it.
+    Args:
+        regions: (rows, cols), 0 = none.
+        seen: (rows, cols) rooms as automatic segmentation sees them on the map; every region goes to
+            the one that holds most of it.
     """
-    seen = segment_automatically(grid, config).rooms
     count = int(regions.max(initial=0)) + 1
     inside = (regions > 0) & (seen > 0)
     votes = np.zeros((count, int(seen.max(initial=0)) + 1), np.int64)

@@ -1,15 +1,18 @@
 import numpy as np
 import pytest
 
-from core.segmentation.convex_division import DivisionConfig
 from core.segmentation.convexity import ConvexityConfig
 from core.segmentation.extraction_state import ExtractedRegion, ExtractionState, painted
-from core.segmentation.latest_regions import region_image, revised
+from core.segmentation.latest_regions import RevisionConfig, region_image, revised
 
 
 def state_of(*masks):
     regions = tuple(ExtractedRegion(i + 1, np.argwhere(mask)) for i, mask in enumerate(masks))
     return ExtractionState(regions, len(masks) + 1)
+
+
+def revised_on(grid, state):
+    return revised(state, grid, np.where(grid.free, 1, 0), RevisionConfig(), ConvexityConfig())
 
 
 def west_of(grid, x):
@@ -20,7 +23,7 @@ def west_of(grid, x):
 
 def test_a_region_with_a_wall_in_it_is_cut_and_says_from_what_it_came(two_rooms):
     state = state_of(two_rooms.free)
-    found = revised(state, two_rooms, DivisionConfig(), ConvexityConfig())
+    found = revised_on(two_rooms, state)
     assert {r.number: r.parents for r in found.state.regions} == {1: (), 2: (1,)}
     assert found.state.next_number == 3
     assert [d.reason for d in found.decisions] == ["cut off: not convex on the latest map"]
@@ -29,7 +32,7 @@ def test_a_region_with_a_wall_in_it_is_cut_and_says_from_what_it_came(two_rooms)
 def test_regions_that_are_convex_together_are_joined_under_the_larger_one_s_number(square_map):
     west = west_of(square_map, 1.5)
     state = state_of(west, square_map.free & ~west)
-    found = revised(state, square_map, DivisionConfig(), ConvexityConfig())
+    found = revised_on(square_map, state)
     (region,) = found.state.regions
     assert (region.number, region.parents) == (2, (1,))
     assert len(region.cells) == square_map.free.sum()
@@ -37,9 +40,7 @@ def test_regions_that_are_convex_together_are_joined_under_the_larger_one_s_numb
 
 def test_convex_regions_stay_as_they_are(two_rooms):
     west = west_of(two_rooms, 4.6)
-    found = revised(
-        state_of(west, two_rooms.free & ~west), two_rooms, DivisionConfig(), ConvexityConfig()
-    )
+    found = revised_on(two_rooms, state_of(west, two_rooms.free & ~west))
     assert [(r.number, r.parents) for r in found.state.regions] == [(1, ()), (2, ())]
     assert found.decisions == []
 
