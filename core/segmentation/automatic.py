@@ -150,13 +150,14 @@ def _nodes(
 ) -> IntArray:
     """Label image of the rooms' convex parts."""
     regions = np.zeros(rooms.shape, np.int64)
-    values = np.unique(rooms[rooms > 0])
+    boxes = ndimage.find_objects(rooms)
     count = 0
-    for i, value in enumerate(values):
-        box = ndimage.find_objects((rooms == value).astype(np.int64))[0]
+    for value, box in enumerate(boxes, start=1):
+        if box is None:
+            continue
         room = rooms[box] == value
         for part in split_until_convex(room, ~floor[box], resolution, config, history, seed):
             count += 1
             regions[box][part] = count
-        progress((i + 1) / len(values), "cutting rooms into convex regions")
+        progress(value / len(boxes), "cutting rooms into convex regions")
     return regions

@@ -73,13 +73,13 @@ def decompose(mask: BoolArray, max_size: int | None = None) -> CellDecomposition
 def affinity(cells: CellDecomposition) -> sparse.csr_array:
     """W of eq. (3): the number of adjacent grids between two cells, 0 where they do not touch."""
     index, n = cells.index, len(cells)
-    pairs = np.concatenate(
-        (
-            np.column_stack((index[:, :-1].ravel(), index[:, 1:].ravel())),
-            np.column_stack((index[:-1].ravel(), index[1:].ravel())),
-        )
-    )
-    pairs = pairs[(pairs[:, 0] >= 0) & (pairs[:, 1] >= 0) & (pairs[:, 0] != pairs[:, 1])]
+    pairs = np.concatenate((_borders(index[:, :-1], index[:, 1:]), _borders(index[:-1], index[1:])))
     both = np.concatenate((pairs, pairs[:, ::-1]))
     ones = np.ones(len(both))
     return sparse.csr_array(sparse.coo_array((ones, (both[:, 0], both[:, 1])), shape=(n, n)))
+
+
+def _borders(one: IntArray, other: IntArray) -> IntArray:
+    """The cells (n, 2) of grids and of their neighbours, where these are two."""
+    parted = (one != other) & (one >= 0) & (other >= 0)
+    return np.column_stack((one[parted], other[parted]))

@@ -6,6 +6,7 @@ shares the longest border. So the number of regions stays as it was and no floor
 
 from __future__ import annotations
 
+import numba
 import numpy as np
 from scipy import ndimage
 from skimage.segmentation import watershed
@@ -101,9 +102,16 @@ def _give_to_neighbours(regions: IntArray, pieces: list[BoolArray]) -> IntArray:
 
 def renumber(regions: IntArray) -> IntArray:
     """The same regions with values 1..n, from the lowest row upwards, left to right."""
-    values, first = np.unique(regions, return_index=True)
-    order = values[np.argsort(first)]
-    order = order[order > 0]
     table = np.zeros(int(regions.max(initial=0)) + 1, np.int64)
-    table[order] = np.arange(1, len(order) + 1)
+    _number(regions, table)
     return np.asarray(table[regions])
+
+
+@numba.njit(cache=True)
+def _number(regions: IntArray, table: IntArray) -> None:
+    """Gives the values of an image numbers 1..n in the order in which they come first."""
+    count = 0
+    for value in regions.flat:
+        if value > 0 and table[value] == 0:
+            count += 1
+            table[value] = count

@@ -9,6 +9,7 @@ than the room between them.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -20,6 +21,7 @@ from core.geometry import BoolArray, FloatArray, IntArray
 from core.segmentation.cell_decomposition import affinity, decompose
 from core.segmentation.hidden_pairs import hidden_pairs
 
+Box = tuple[slice, slice]
 SHIFT = -1e-5
 """Of the inverse iteration, below the smallest eigenvalue 0."""
 DENSE_BELOW = 32
@@ -61,8 +63,8 @@ def split_until_convex(
     config: ConvexSplitConfig,
     history: list[dict[str, Any]],
     seed: int = 0,
-) -> list[BoolArray]:
-    """The parts (masks) of a connected region (rows, cols), each seen whole from within.
+) -> Iterator[BoolArray]:
+    """The parts (masks) of a connected region (rows, cols), each seen whole from within, one by one.
 
     Args:
         region: the region.
@@ -72,17 +74,17 @@ def split_until_convex(
         history: gets one entry for each decision.
         seed: of the drawn pairs.
     """
-    waiting, parts = [region], []
+    waiting = [_boxed(region, (0, 0))]
     while waiting:
-        mask = waiting.pop()
-        hidden = hidden_pairs(mask, blocked, config.pairs, seed)
+        mask, box = waiting.pop()
+        hidden = hidden_pairs(mask, blocked[box], config.pairs, seed)
         cut = None
         if hidden > config.most_hidden and mask.sum() * resolution**2 >= 2 * config.least_area:
             cut = two_way_cut(mask, config.least_area / resolution**2, config.max_cell)
         if cut is None:
-            parts.append(mask)
+            yield _whole(mask, box, region.shape)
             continue
-        after = _after(cut, blocked, config.pairs, seed)
+        after = _after(cut, blocked[box], config.pairs, seed)
         accepted = after <= (1 - config.least_gain) * hidden
         history.append(
             {
@@ -97,10 +99,25 @@ def split_until_convex(
             }
         )
         if accepted:
-            waiting += [cut.first, cut.second]
+            corner = box[0].start, box[1].start
+            waiting += [_boxed(cut.first, corner), _boxed(cut.second, corner)]
         else:
-            parts.append(mask)
-    return parts
+            yield _whole(mask, box, region.shape)
+
+
+def _boxed(mask: BoolArray, corner: tuple[int, int]) -> tuple[BoolArray, Box]:
+    """What a mask with its lowest cell at `corner` holds, and the box around that."""
+    rows, cols = ndimage.find_objects(mask.astype(np.uint8))[0]
+    row, col = corner
+    box = slice(row + rows.start, row + rows.stop), slice(col + cols.start, col + cols.stop)
+    return mask[rows, cols], box
+
+
+def _whole(part: BoolArray, box: Box, shape: tuple[int, ...]) -> BoolArray:
+    """The mask (rows, cols) of which a box holds this part."""
+    mask = np.zeros(shape, bool)
+    mask[box] = part
+    return mask
 
 
 def _after(cut: TwoWayCut, blocked: BoolArray, pairs: int, seed: int) -> float:
@@ -113,8 +130,7 @@ def _after(cut: TwoWayCut, blocked: BoolArray, pairs: int, seed: int) -> float:
 
 def two_way_cut(mask: BoolArray, least: float, max_cell: int) -> TwoWayCut | None:
     """The best cut of a region in two connected parts of at least so many grids; None if there is none."""
-    box = ndimage.find_objects(mask.astype(np.int64))[0]
-    part = mask[box]
+    part, box = _boxed(mask, (0, 0))
     cells = decompose(part, max_cell)
     if len(cells) < 2:
         return None
@@ -131,12 +147,8 @@ def two_way_cut(mask: BoolArray, least: float, max_cell: int) -> TwoWayCut | Non
         return None
     cut = _crossing(first, second)
     area = np.array([first.sum(), second.sum()], float)
-    masks = []
-    for half in (first, second):
-        full = np.zeros_like(mask)
-        full[box] = half
-        masks.append(full)
-    return TwoWayCut(masks[0], masks[1], float((cut / area).sum()), float(cut))
+    near, far = (_whole(half, box, mask.shape) for half in (first, second))
+    return TwoWayCut(near, far, float((cut / area).sum()), float(cut))
 
 
 def _second_eigenvector(weights: sparse.csr_array, area: FloatArray) -> FloatArray:

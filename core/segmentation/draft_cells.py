@@ -14,11 +14,11 @@ import numpy as np
 from scipy import ndimage
 from skimage.draw import line
 from skimage.measure import label
-from skimage.morphology import reconstruction
 from skimage.segmentation import watershed
 
 from core.geometry import BoolArray, FloatArray, IntArray
 from core.segmentation.boundary_points import boundary_points
+from core.segmentation.reconstruction import reconstruction
 from core.segmentation.wall_extensions import ExtensionConfig, wall_extensions
 
 OVERSHOOT = 1.5
@@ -66,7 +66,7 @@ def draft_cells(
 def _basins(floor: BoolArray, clearance: FloatArray, config: DraftConfig) -> IntArray:
     """Watershed of the clearance from its maxima that stand out by the depth (h-maxima)."""
     smooth = ndimage.gaussian_filter(clearance, config.smoothing) * floor
-    domes = smooth - reconstruction(smooth - config.depth, smooth)  # type: ignore[no-untyped-call]
+    domes = smooth - reconstruction(smooth - config.depth, smooth)
     markers, _ = ndimage.label((domes >= config.depth - 1e-6) & floor, np.ones((3, 3)))
     return np.asarray(watershed(-smooth, markers, mask=floor), np.int64)  # type: ignore[no-untyped-call]
 
@@ -88,6 +88,7 @@ def _without_slivers(cells: IntArray, least: float) -> IntArray:
     """Small cells given to the neighbour with the longest common border, the smallest first."""
     count = int(cells.max(initial=0)) + 1
     area = np.bincount(cells.ravel(), minlength=count).astype(float)
+    present = area > 0
     border: list[dict[int, int]] = [{} for _ in range(count)]
     for (low, high), points in boundary_points(cells).items():
         border[low][high] = border[high][low] = len(points)
@@ -108,5 +109,7 @@ def _without_slivers(cells: IntArray, least: float) -> IntArray:
         border[cell] = {}
         if area[to] < least:
             heapq.heappush(waiting, (area[to], to))
-    merged = np.unique(parent[cells], return_inverse=True)[1].reshape(cells.shape)
-    return np.asarray(merged + (0 if (cells == 0).any() else 1), np.int64)
+    kept = np.zeros(count, bool)
+    kept[parent[present]] = True
+    kept[0] = False
+    return np.asarray(np.cumsum(kept)[parent] * (parent > 0))[cells]

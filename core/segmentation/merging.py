@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import heapq
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -112,24 +113,29 @@ def merge(
     Returns:
         Log-odds of the borders that stayed.
     """
-    odds: dict[Pair, float] = {}
-    _judge(graph, graph.pairs(), judge, odds)
-    while odds:
-        pair = min(odds, key=lambda key: (odds[key], key))
-        if odds[pair] >= least:
+    odds = _judged(graph, graph.pairs(), judge)
+    waiting = [(value, pair) for pair, value in odds.items()]
+    heapq.heapify(waiting)
+    while waiting:
+        value, pair = heapq.heappop(waiting)
+        if odds.get(pair) != value:
+            continue  # judged again since, or gone
+        if value >= least:
             break
         kept, gone = pair
-        stale = [key for key in odds if gone in key]
+        for other in graph.borders[gone]:
+            del odds[min(gone, other), max(gone, other)]
         if merged is not None:
             merged(kept, gone)
-        changed = graph.join(kept, gone)
-        for key in stale:
-            del odds[key]
-        _judge(graph, changed, judge, odds)
+        fresh = _judged(graph, graph.join(kept, gone), judge)
+        odds |= fresh
+        for again, value in fresh.items():
+            heapq.heappush(waiting, (value, again))
     return odds
 
 
-def _judge(graph: RegionGraph, pairs: list[Pair], judge: Judge, odds: dict[Pair, float]) -> None:
-    if pairs:
-        values = judge(pairs, np.array([graph.features(pair) for pair in pairs]))
-        odds.update((pair, float(value)) for pair, value in zip(pairs, values, strict=True))
+def _judged(graph: RegionGraph, pairs: list[Pair], judge: Judge) -> dict[Pair, float]:
+    if not pairs:
+        return {}
+    values = judge(pairs, np.array([graph.features(pair) for pair in pairs]))
+    return {pair: float(value) for pair, value in zip(pairs, values, strict=True)}

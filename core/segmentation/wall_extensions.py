@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
+import numba
 import numpy as np
 from skimage.measure import approximate_polygon, find_contours
 
@@ -90,12 +92,28 @@ def _distinct(segments: list[FloatArray], same: float) -> FloatArray:
     stack = np.stack(segments)
     span = stack[:, 1] - stack[:, 0]
     stack = stack[np.argsort(np.hypot(span[:, 0], span[:, 1]), kind="stable")]
-    kept = np.zeros(len(stack), bool)
-    for i, segment in enumerate(stack):
-        others = stack[kept]
-        apart = [
-            np.hypot(*(others - ends).transpose(2, 0, 1)).max(axis=1, initial=0.0)
-            for ends in (segment, segment[::-1])
-        ]
-        kept[i] = not (np.minimum(*apart) < same).any()
-    return stack[kept]
+    return stack[_first_of_each(stack, same)]
+
+
+@numba.njit(cache=True)
+def _first_of_each(stack, same):  # type: ignore[no-untyped-def]
+    """Which segments lie no nearer than `same`, either way round, to an earlier one of them."""
+    kept = np.ones(len(stack), np.bool_)
+    for i in range(len(stack)):
+        for j in range(i):
+            if kept[j] and (
+                _near(stack[j], stack[i], 0, same) or _near(stack[j], stack[i], 1, same)
+            ):
+                kept[i] = False
+                break
+    return kept
+
+
+@numba.njit(cache=True)
+def _near(one, other, turned, same):  # type: ignore[no-untyped-def]
+    """Whether both ends of two segments, the other one turned or not, lie closer than `same`."""
+    for end in range(2):
+        row, col = one[end] - other[end ^ turned]
+        if not math.hypot(row, col) < same:
+            return False
+    return True

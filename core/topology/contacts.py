@@ -35,9 +35,13 @@ def contacts(regions: IntArray, geometry: GridGeometry) -> tuple[Contact, ...]:
         geometry: where its cells lie.
     """
     points, pairs = _contact_points(regions)
+    if len(points) == 0:
+        return ()
     found = []
-    for pair in np.unique(pairs, axis=0):
-        mine = points[(pairs == pair).all(axis=1)]
+    order = np.lexsort((pairs[:, 1], pairs[:, 0]))
+    points, pairs = points[order], pairs[order]
+    first = np.flatnonzero(np.any(np.diff(pairs, axis=0, prepend=-1) != 0, axis=1))
+    for pair, mine in zip(pairs[first], np.split(points, first[1:]), strict=True):
         for stretch in _stretches(mine):
             centre = stretch[np.argmin(((stretch - stretch.mean(axis=0)) ** 2).sum(axis=1))]
             x, y = geometry.world_of(centre)

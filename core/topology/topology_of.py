@@ -10,6 +10,7 @@ from scipy import ndimage
 
 from core.geometry import BoolArray, IntArray
 from core.mapping import OccupancyGrid
+from core.mapping.occupancy_grid import FREE
 from core.segmentation.hidden_pairs import hidden_pairs
 from core.topology.contacts import Contact, contacts
 from core.topology.labels import with_rooms
@@ -44,10 +45,13 @@ def topology_of(
             ids[value] = f"n{number}"
             number += 1
     nodes = []
+    boxes = ndimage.find_objects(regions)
     for value in values:
-        mask = regions == value
-        room = int(np.bincount(rooms[mask]).argmax()) if rooms is not None else value
-        node = measured_node(grid, mask, ids[value], value, labels.get(value), room)
+        box = boxes[value - 1]
+        mask = regions[box] == value
+        room = int(np.bincount(rooms[box][mask]).argmax()) if rooms is not None else value
+        corner = box[0].start, box[1].start
+        node = measured_node(grid, mask, ids[value], value, labels.get(value), room, corner)
         nodes.append(replace(node, came_from=(came_from or {}).get(value, ())))
     edges = []
     for contact in contacts(regions, grid.geometry):
@@ -63,15 +67,25 @@ def measured_node(
     region: int,
     label: str | None,
     suggested_room: int,
+    corner: tuple[int, int] = (0, 0),
 ) -> Node:
-    """A node with what is measured of its region `mask` (rows, cols)."""
+    """A node with what is measured of its region.
+
+    Args:
+        grid: the map.
+        mask: (rows, cols) the region within a part of the map.
+        node_id, region, label, suggested_room: of the node.
+        corner: `[row, col]` of the part's lowest cell.
+    """
+    row, col = corner
+    blocked = grid.state[row : row + mask.shape[0], col : col + mask.shape[1]] != FREE
     return Node(
         node_id,
         region,
         label,
         round(float(mask.sum()) * grid.geometry.cell_area, 3),
-        _deepest_point(grid, mask),
-        round(hidden_pairs(mask, ~grid.free), 3),
+        _deepest_point(grid, mask, corner),
+        round(hidden_pairs(mask, blocked), 3),
         suggested_room,
     )
 
@@ -83,12 +97,14 @@ def measured_edge(contact: Contact, edge_id: str, ids: Mapping[int, str]) -> Edg
     return Edge(edge_id, *ends, (round(x, 3), round(y, 3)), round(contact.width_m, 3))
 
 
-def _deepest_point(grid: OccupancyGrid, mask: BoolArray) -> tuple[float, float]:
+def _deepest_point(
+    grid: OccupancyGrid, mask: BoolArray, corner: tuple[int, int]
+) -> tuple[float, float]:
     """World position of the point of a region that is farthest from its border."""
     rows, cols = np.nonzero(mask)
     low, high = (rows.min(), cols.min()), (rows.max() + 1, cols.max() + 1)
     part = np.pad(mask[low[0] : high[0], low[1] : high[1]], 1)
     depth = ndimage.distance_transform_edt(part)
     row, col = np.unravel_index(int(depth.argmax()), depth.shape)
-    x, y = grid.geometry.world_of(np.array([row - 1 + low[0], col - 1 + low[1]]))
+    x, y = grid.geometry.world_of(np.array([row - 1 + low[0], col - 1 + low[1]]) + corner)
     return round(float(x), 3), round(float(y), 3)

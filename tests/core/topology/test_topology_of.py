@@ -64,3 +64,10 @@ def test_a_hole_in_a_wall_is_no_doorway_unless_nothing_else_joins() -> None:
     regions[:, 10] = 0
     regions[10, 10] = 1
     assert len(topology_of(home(regions), regions).edges) == 1
+
+
+def test_a_single_region_has_no_doorway() -> None:
+    regions = np.ones((5, 8), int)
+    topology = topology_of(home(regions), regions)
+    assert [node.area_m2 for node in topology.nodes] == [pytest.approx(0.4)]
+    assert topology.edges == ()
