@@ -92,7 +92,7 @@ def _distinct(segments: list[FloatArray], same: float) -> FloatArray:
     stack = np.stack(segments)
     span = stack[:, 1] - stack[:, 0]
     stack = stack[np.argsort(np.hypot(span[:, 0], span[:, 1]), kind="stable")]
-    return stack[_first_of_each(stack, same)]
+    return np.asarray(stack[_first_of_each(stack, same)])
 
 
 @numba.njit(cache=True)
