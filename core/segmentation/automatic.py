@@ -89,12 +89,14 @@ def segment_automatically(
         raise MapError("the map has no free space to divide")
     progress(0.0, "looking for rooms")
     history: list[dict[str, Any]] = []
-    cells, around = draft_of(floor, grid.occupied, resolution, config.draft)
-    rooms = _rooms(cells, around, model or stored_boundary_model(), config, history)
+    draft = draft_of(floor, grid.occupied, resolution, config.draft)
+    rooms = _rooms(*draft, model or stored_boundary_model(), config, history)
+    del draft  # the largest images of a large map
     regions = _nodes(
         rooms, floor, resolution, config.convex, history, seed, part_of(progress, ROOMS_SHARE, 1.0)
     )
-    rooms, regions = (np.where(grid.free, labels, 0) for labels in (rooms, regions))
+    filled = ~grid.free
+    rooms[filled], regions[filled] = 0, 0
     return Segmentation(renumber(regions), renumber(rooms), tuple(history))
 
 
@@ -102,12 +104,12 @@ def draft_of(
     floor: BoolArray, occupied: BoolArray, resolution: float, config: DraftConfig
 ) -> tuple[IntArray, Surroundings]:
     """Draft cells of a floor and what their borders are measured on."""
+    wall = np.asarray(ndimage.binary_dilation(occupied & ~floor, np.ones((3, 3))) & ~floor)
+    axis = main_axis(wall)
     clearance = clearance_of(floor, resolution)
-    wall = ndimage.binary_dilation(occupied & ~floor, np.ones((3, 3))) & ~floor
     cells = draft_cells(floor, clearance, resolution, config)
     bare = clearance_of(uncluttered(floor, resolution, BARE), resolution)
-    around = Surroundings(floor, np.asarray(wall), clearance, bare, main_axis(wall), resolution)
-    return cells, around
+    return cells, Surroundings(floor, wall, clearance, bare, axis, resolution)
 
 
 def _rooms(

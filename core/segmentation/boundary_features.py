@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+import numba
 import numpy as np
 from scipy import ndimage
 
@@ -144,13 +145,28 @@ def region_shapes(
 
 def common_walls(cells: IntArray, resolution: float) -> dict[Pair, float]:
     """Metres of wall between each two labels: the border that they would have without it."""
-    distance, nearest = ndimage.distance_transform_edt(cells == 0, return_indices=True)
-    grown = np.where(distance * resolution <= WALL_THICKNESS / 2, cells[tuple(nearest)], 0)
+    nearest = ndimage.distance_transform_edt(
+        cells == 0, return_distances=False, return_indices=True
+    )
+    grown = cells.copy()
+    _grow(grown, nearest, WALL_THICKNESS / 2, resolution)
     open_border = boundary_points(cells)
     return {
         pair: max(0, len(points) - len(open_border.get(pair, ()))) * resolution
         for pair, points in boundary_points(grown).items()
     }
+
+
+@numba.njit(cache=True)
+def _grow(cells, nearest, reach, resolution):  # type: ignore[no-untyped-def]
+    """Gives cells without a label that of their nearest (2, rows, cols) with one within reach."""
+    rows, cols = cells.shape
+    for r in range(rows):
+        for c in range(cols):
+            row, col = nearest[0, r, c], nearest[1, r, c]
+            squares = (row - r) ** 2 + (col - c) ** 2
+            if squares > 0 and math.sqrt(squares) * resolution <= reach:
+                cells[r, c] = cells[row, col]
 
 
 def boundary_features(

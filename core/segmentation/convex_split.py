@@ -74,17 +74,19 @@ def split_until_convex(
         history: gets one entry for each decision.
         seed: of the drawn pairs.
     """
-    waiting = [_boxed(region, (0, 0))]
+    first, box = _boxed(region, (0, 0))
+    waiting = [(first, box, hidden_pairs(first, blocked[box], config.pairs, seed))]
     while waiting:
-        mask, box = waiting.pop()
-        hidden = hidden_pairs(mask, blocked[box], config.pairs, seed)
+        mask, box, hidden = waiting.pop()
         cut = None
         if hidden > config.most_hidden and mask.sum() * resolution**2 >= 2 * config.least_area:
             cut = two_way_cut(mask, config.least_area / resolution**2, config.max_cell)
         if cut is None:
             yield _whole(mask, box, region.shape)
             continue
-        after = _after(cut, blocked[box], config.pairs, seed)
+        parts = (cut.first, cut.second)
+        shares = [hidden_pairs(part, blocked[box], config.pairs, seed) for part in parts]
+        after = _mean(shares, parts)
         accepted = after <= (1 - config.least_gain) * hidden
         history.append(
             {
@@ -100,7 +102,8 @@ def split_until_convex(
         )
         if accepted:
             corner = box[0].start, box[1].start
-            waiting += [_boxed(cut.first, corner), _boxed(cut.second, corner)]
+            boxed = (_boxed(part, corner) for part in parts)
+            waiting += [(*part, share) for part, share in zip(boxed, shares, strict=True)]
         else:
             yield _whole(mask, box, region.shape)
 
@@ -120,12 +123,10 @@ def _whole(part: BoolArray, box: Box, shape: tuple[int, ...]) -> BoolArray:
     return mask
 
 
-def _after(cut: TwoWayCut, blocked: BoolArray, pairs: int, seed: int) -> float:
-    """Hidden pairs of the two parts, weighted by their areas."""
-    parts = (cut.first, cut.second)
+def _mean(shares: list[float], parts: tuple[BoolArray, ...]) -> float:
+    """The shares of parts, weighted by their areas."""
     area = np.array([part.sum() for part in parts], float)
-    hidden = np.array([hidden_pairs(part, blocked, pairs, seed) for part in parts])
-    return float((area * hidden).sum() / area.sum())
+    return float((area * np.array(shares)).sum() / area.sum())
 
 
 def two_way_cut(mask: BoolArray, least: float, max_cell: int) -> TwoWayCut | None:

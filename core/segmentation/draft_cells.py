@@ -8,8 +8,10 @@ constriction. Far too many cells; merging (`merging.py`) decides which borders s
 from __future__ import annotations
 
 import heapq
+import math
 from dataclasses import dataclass, field
 
+import numba
 import numpy as np
 from scipy import ndimage
 from skimage.draw import line
@@ -44,8 +46,21 @@ class DraftConfig:
 
 def clearance_of(floor: BoolArray, resolution: float) -> FloatArray:
     """Distance of each cell (rows, cols) to the nearest that is no floor, in metres."""
-    distance = ndimage.distance_transform_edt(np.pad(floor, 1))[1:-1, 1:-1]
-    return np.asarray(distance * resolution)
+    nearest = ndimage.distance_transform_edt(
+        np.pad(floor, 1), return_distances=False, return_indices=True
+    )
+    return np.asarray(_distances(nearest)[1:-1, 1:-1] * resolution)
+
+
+@numba.njit(cache=True)
+def _distances(nearest):  # type: ignore[no-untyped-def]
+    """Distance (rows, cols) of each cell to another one, `nearest` (2, rows, cols); lean in memory."""
+    _, rows, cols = nearest.shape
+    out = np.empty((rows, cols))
+    for r in range(rows):
+        for c in range(cols):
+            out[r, c] = math.sqrt((nearest[0, r, c] - r) ** 2 + (nearest[1, r, c] - c) ** 2)
+    return out
 
 
 def draft_cells(
@@ -53,22 +68,34 @@ def draft_cells(
 ) -> IntArray:
     """Label image (rows, cols) of the draft cells 1..n, 0 outside the floor."""
     config = config or DraftConfig()
-    basins = _basins(floor, clearance, config)
     barrier = _drawn(wall_extensions(floor, resolution, config.extensions), floor)
-    pieces = label(np.where(barrier, 0, basins), connectivity=1, background=0)  # type: ignore[no-untyped-call]
-    nearest = ndimage.distance_transform_edt(
-        pieces == 0, return_distances=False, return_indices=True
-    )
-    cells = np.where(floor, pieces[tuple(nearest)], 0).astype(np.int64)
+    basins = _basins(floor, clearance, config)
+    basins[barrier] = 0
+    cells = np.asarray(label(basins, connectivity=1, background=0), np.int64)  # type: ignore[no-untyped-call]
+    del basins  # a large image of a large map
+    _fill(cells, floor & (cells == 0))
     return _without_slivers(cells, config.least_area / resolution**2)
+
+
+def _fill(cells: IntArray, gaps: BoolArray) -> None:
+    """Gives gaps the label of the nearest cell that has one."""
+    nearest = ndimage.distance_transform_edt(
+        cells == 0, return_distances=False, return_indices=True
+    )
+    cells[gaps] = cells[tuple(nearest[:, gaps])]
 
 
 def _basins(floor: BoolArray, clearance: FloatArray, config: DraftConfig) -> IntArray:
     """Watershed of the clearance from its maxima that stand out by the depth (h-maxima)."""
     smooth = ndimage.gaussian_filter(clearance, config.smoothing) * floor
-    domes = smooth - reconstruction(smooth - config.depth, smooth)
-    markers, _ = ndimage.label((domes >= config.depth - 1e-6) & floor, np.ones((3, 3)))
+    markers, _ = ndimage.label(_stands_out(smooth, config.depth) & floor, np.ones((3, 3)))
     return np.asarray(watershed(-smooth, markers, mask=floor), np.int64)  # type: ignore[no-untyped-call]
+
+
+def _stands_out(image: FloatArray, depth: float) -> BoolArray:
+    """The maxima from which every way to a higher one falls by the depth."""
+    domes = image - reconstruction(image - depth, image)
+    return np.asarray(domes >= depth - 1e-6)
 
 
 def _drawn(segments: FloatArray, floor: BoolArray) -> BoolArray:

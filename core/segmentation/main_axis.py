@@ -18,6 +18,8 @@ def main_axis(wall: BoolArray) -> float:
     the gradient's strength.
     """
     smooth = ndimage.gaussian_filter(wall.astype(float), BLUR)
-    gradient = ndimage.sobel(smooth, 1) + 1j * ndimage.sobel(smooth, 0)
+    across, along = ndimage.sobel(smooth, 1), ndimage.sobel(smooth, 0)
+    sloping = (across != 0) | (along != 0)
+    gradient = across[sloping] + 1j * along[sloping]
     strength = np.maximum(np.abs(gradient), 1e-12)
     return float(np.angle((gradient**4 / strength**3).sum()) / 4)
