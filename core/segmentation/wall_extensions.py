@@ -114,6 +114,6 @@ def _near(one, other, turned, same):  # type: ignore[no-untyped-def]
     """Whether both ends of two segments, the other one turned or not, lie closer than `same`."""
     for end in range(2):
         row, col = one[end] - other[end ^ turned]
-        if not math.hypot(row, col) < same:
+        if abs(row) >= same or math.hypot(row, col) >= same:
             return False
     return True
