@@ -13,6 +13,7 @@ ORDER = (
     "errors",
     "geometry",
     "progress",
+    "wording",
     "sensing",
     "log_readers",
     "mapping",

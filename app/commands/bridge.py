@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from app.commands.map import RingOption
+from core.wording import counted
 
 if TYPE_CHECKING:
     from app.live.serial_lines import SerialLines
@@ -48,7 +49,7 @@ def bridge(
             robot.send([record])
     except KeyboardInterrupt:
         robot.finish()
-        typer.echo(f"{robot.stored} scans confirmed")
+        typer.echo(f"{counted(robot.stored, 'scan')} confirmed")
 
 
 def _records(port: str, baud: int, lines: SerialLines) -> Iterator[dict[str, Any]]:

@@ -8,6 +8,7 @@ from typing import Annotated
 import typer
 
 from app.commands.map import RingOption
+from core.wording import counted
 
 
 def rosbridge(
@@ -59,4 +60,4 @@ def rosbridge(
                 robot.send([record])
     except KeyboardInterrupt:
         robot.finish()
-        typer.echo(f"{robot.stored} scans confirmed")
+        typer.echo(f"{counted(robot.stored, 'scan')} confirmed")

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from app.commands.map import RingOption
+from core.wording import counted
 
 if TYPE_CHECKING:
     from core.sensing import RobotLog
@@ -46,10 +47,10 @@ def stream(
         for records in _in_time(drive, speed):
             robot.send(records)
             sent += len(records)
-            progress(sent / len(drive), f"streaming, {robot.stored} scans confirmed")
+            progress(sent / len(drive), f"streaming, {counted(robot.stored, 'scan')} confirmed")
     if not leave_open:
         robot.finish()
-    typer.echo(f"session {robot.session['id']}: {robot.stored} scans confirmed")
+    typer.echo(f"session {robot.session['id']}: {counted(robot.stored, 'scan')} confirmed")
 
 
 def _in_time(drive: RobotLog, speed: float) -> Iterator[list[dict[str, Any]]]:

@@ -16,6 +16,7 @@ import numpy as np
 
 from core.errors import LogError
 from core.sensing import SonarRing
+from core.wording import counted
 
 RANGE_TYPE, CLOUD_TYPE = "sensor_msgs/Range", "sensor_msgs/PointCloud"
 ODOMETRY_TYPE = "nav_msgs/Odometry"
@@ -73,7 +74,9 @@ class RosScans:
     def _take_cloud(self, points: Sequence[Any]) -> None:
         """Point i is the echo of sonar i, in the robot's frame."""
         if len(points) != len(self._ring):
-            raise ValueError(f"{len(points)} points for a ring of {len(self._ring)} sonars")
+            raise ValueError(
+                f"{counted(len(points), 'point')} for a ring of {counted(len(self._ring), 'sonar')}"
+            )
         for i, (sonar, point) in enumerate(zip(self._ring.sonars, points, strict=True)):
             away = math.hypot(float(point["x"]) - sonar.x, float(point["y"]) - sonar.y)
             self._take_range(i, away)

@@ -18,6 +18,7 @@ import numpy as np
 
 from core.errors import LogError
 from core.geometry import FloatArray, compose, inverse
+from core.wording import counted
 
 LONGEST_LINE = 2048
 ROLL_OVER_S = 2**32 / 1000
@@ -46,7 +47,9 @@ class SerialLines:
         """
         millis, x, y, heading, *ranges = self._numbers(line)
         if len(ranges) != self._sonars:
-            raise LogError(f"{len(ranges)} distances for a ring of {self._sonars} sonars")
+            raise LogError(
+                f"{counted(len(ranges), 'distance')} for a ring of {counted(self._sonars, 'sonar')}"
+            )
         told = np.array([x / 1000, y / 1000, heading / 1000])
         t = self._time(millis / 1000, told)
         self._pose = compose(self._frame, told)

@@ -66,7 +66,8 @@ class RobotFleet:
             raise Conflict(NO_ADDRESS)
         driving = sum(robot.ended is None for robot in self._robots.values()) + self._starting
         if driving >= self._config.most_robots:
-            raise Conflict(f"{driving} robots drive already, as many as may; stop one first")
+            drive = "robot drives" if driving == 1 else "robots drive"
+            raise Conflict(f"{driving} {drive} already, as many as may; stop one first")
         self._starting += 1
         try:
             robot = await _started(order, url)

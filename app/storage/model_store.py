@@ -10,7 +10,7 @@ from contextlib import AbstractContextManager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from sqlalchemy import Connection, RowMapping, delete, insert, select, update
+from sqlalchemy import delete, insert, select, update
 
 from app.errors import Conflict, NotFound
 from app.events import ModelEvents
@@ -19,9 +19,10 @@ from app.storage.database import Database
 from app.storage.edit_history import EditHistory
 from app.storage.model_facts import facts_of
 from app.storage.model_files import Edit, ModelFiles
+from app.storage.model_rows import link_logs, log_ids_of, record_of, row_of
 from app.storage.records import ModelRecord, Status
 from app.storage.search import Sorting, matching, ordering
-from app.storage.tables import model_logs, models
+from app.storage.tables import models
 
 if TYPE_CHECKING:
     from core.topology import Model
@@ -59,8 +60,8 @@ class ModelStore:
             revision=0,
         )
         with self._database.write() as connection:
-            connection.execute(insert(models).values(**_row(record)))
-            _link_logs(connection, record.id, log_ids)
+            connection.execute(insert(models).values(**row_of(record)))
+            link_logs(connection, record.id, log_ids)
         return record
 
     def get(self, model_id: str) -> ModelRecord:
@@ -74,7 +75,7 @@ class ModelStore:
             row = connection.execute(statement).mappings().first()
             if row is None:
                 raise NotFound("model", model_id)
-            return _record(row, _log_ids(connection, [model_id]))
+            return record_of(row, log_ids_of(connection, [model_id]))
 
     def search(self, query: str, sorting: Sorting) -> list[ModelRecord]:
         """The models with every word of the query in their name or labels."""
@@ -82,8 +83,8 @@ class ModelStore:
         statement = statement.order_by(*ordering(models, sorting, SORTINGS))
         with self._database.read() as connection:
             rows = connection.execute(statement).mappings().all()
-            log_ids = _log_ids(connection, [row["id"] for row in rows])
-        return [_record(row, log_ids) for row in rows]
+            log_ids = log_ids_of(connection, [row["id"] for row in rows])
+        return [record_of(row, log_ids) for row in rows]
 
     def rename(self, model_id: str, name: str) -> ModelRecord:
         """Gives a model another name.
@@ -153,7 +154,7 @@ class ModelStore:
             else:
                 self._files.remake(model_id, prepared, edit)
             with self._database.write() as connection:
-                _link_logs(connection, model_id, log_ids)
+                link_logs(connection, model_id, log_ids)
             self._index(model_id, facts, status=Status.DONE, error=None, updated=time.time())
         self._events.model_changed(model_id)
 
@@ -288,44 +289,3 @@ class ModelStore:
 def _check_revision(history: EditHistory, revision: int | None) -> None:
     if revision is not None and revision != history.revision:
         raise Conflict("the model has changed since")
-
-
-def _link_logs(connection: Connection, model_id: str, log_ids: Sequence[str]) -> None:
-    connection.execute(delete(model_logs).where(model_logs.c.model_id == model_id))
-    for position, log_id in enumerate(log_ids):
-        connection.execute(
-            insert(model_logs).values(model_id=model_id, log_id=log_id, position=position)
-        )
-
-
-def _log_ids(connection: Connection, model_ids: Sequence[str]) -> dict[str, list[str]]:
-    grouped: dict[str, list[str]] = {model_id: [] for model_id in model_ids}
-    rows = connection.execute(
-        select(model_logs)
-        .where(model_logs.c.model_id.in_(model_ids))
-        .order_by(model_logs.c.position)
-    )
-    for row in rows:
-        grouped[row.model_id].append(row.log_id)
-    return grouped
-
-
-def _row(record: ModelRecord) -> dict[str, Any]:
-    row = vars(record) | {
-        "options": json.dumps(dict(record.options)),
-        "labels": json.dumps(record.labels),
-    }
-    del row["log_ids"]
-    return row
-
-
-def _record(row: RowMapping, log_ids: Mapping[str, Sequence[str]]) -> ModelRecord:
-    return ModelRecord(
-        **{
-            **row,
-            "status": Status(row["status"]),
-            "options": json.loads(row["options"]),
-            "labels": tuple(json.loads(row["labels"])),
-            "log_ids": tuple(log_ids[row["id"]]),
-        }
-    )

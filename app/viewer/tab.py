@@ -6,7 +6,6 @@ import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
-import numpy as np
 import viser
 
 from app.viewer.camera import View
@@ -16,6 +15,7 @@ from app.viewer.drift_playback import DriftPlayback
 from app.viewer.layers import DEFAULT_LAYERS
 from app.viewer.live_track import LiveTrack
 from app.viewer.mailbox import Mailbox
+from app.viewer.measured_line import MeasuredLine
 from app.viewer.messages import (
     Camera,
     CameraView,
@@ -56,8 +56,8 @@ class TabState:
     layers: dict[str, bool] = field(default_factory=lambda: dict(DEFAULT_LAYERS))
     theme: str = "light"
     measuring: bool = False
+    measured: MeasuredLine = field(default_factory=MeasuredLine)
     picking: bool = False
-    points: list[tuple[float, float]] = field(default_factory=list)
     picture_height: float = _DEFAULT_HEIGHT
 
 
@@ -104,7 +104,7 @@ class Tab:
         self.scene.wear(state.theme)
         self.scene.layers.show(self._visible(state.layers))
         self.scene.select(state.selected, state.others)
-        self.scene.measure(state.points)
+        self.scene.measure(state.measured.points)
         self.playback.again(self.scene)
         self.moment.again(self.scene, state.theme)
         self.drift.again(self.scene, state.theme)
@@ -183,7 +183,8 @@ class Tab:
         if self.state.measuring:
             point = floor_point(origin, direction)
             if point is not None:
-                self._add_point(point)
+                self.state.measured.add(point)
+                self._show_measured()
             return
         if self.drift.shown and drawing.drift is not None:
             point = floor_point(origin, direction)
@@ -250,21 +251,14 @@ class Tab:
 
     def _measure(self, on: bool) -> None:
         self.state.measuring = on
-        self.state.points.clear()
-        self._show_measured()
-
-    def _add_point(self, point: tuple[float, float]) -> None:
-        if len(self.state.points) == 2:
-            self.state.points.clear()
-        self.state.points.append(point)
+        self.state.measured = MeasuredLine()
         self._show_measured()
 
     def _show_measured(self) -> None:
-        points = tuple(self.state.points)
-        distance = float(np.hypot(*np.subtract(*points))) if len(points) == 2 else None
+        line = self.state.measured
         if self.scene is not None:
-            self.scene.measure(points)
-        self.tell(Measured(points=points, distance_m=distance))
+            self.scene.measure(line.points)
+        self.tell(Measured(points=line.points, distance_m=line.distance_m))
 
     def _play(self, message: Playback) -> None:
         if self.live is not None:

@@ -14,6 +14,7 @@ from core.log_readers.range_check import usable_ranges
 from core.log_readers.ring_file import parse_ring, table_of
 from core.sensing.ring import SonarRing
 from core.sensing.robot_log import RobotLog, Scan
+from core.wording import counted
 
 FORMAT_NAME = "echorooms-log"
 VERSION = 1
@@ -104,7 +105,7 @@ def scan_fields(record: Any, sonars: int, limits: ReadLimits) -> ScanFields:
     if not isinstance(ranges, list):
         raise LogError(f"ranges must be a list of {sonars} numbers or null, not {_shown(ranges)}")
     if len(ranges) != sonars:
-        raise LogError(f"{len(ranges)} ranges for {sonars} sonars")
+        raise LogError(f"{counted(len(ranges), 'range')} for {counted(sonars, 'sonar')}")
     if not _RANGES.issuperset(map(type, ranges)):
         raise LogError("ranges must be numbers or null")
     truth = record.get("truth")

@@ -13,6 +13,7 @@ from core.log_readers.draft_log import Finding
 from core.log_readers.limits import ReadLimits
 from core.log_readers.text_description import TextFile
 from core.log_readers.text_table import TextTable
+from core.wording import counted
 
 
 @dataclass(frozen=True)
@@ -102,7 +103,8 @@ def _sonars(file: TextFile, ring_size: int, source: str) -> IntArray:
     if file.sonars is None:
         if count not in (0, ring_size):
             raise LogError(
-                f"{count} columns of ranges for a ring of {ring_size} sonars; `sonars` says which",
+                f"{counted(count, 'column')} of ranges for a ring of {counted(ring_size, 'sonar')}; "
+                "`sonars` says which",
                 source,
             )
         return np.arange(count)

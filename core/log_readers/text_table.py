@@ -14,6 +14,7 @@ from core.geometry import FloatArray, IntArray
 from core.log_readers.draft_log import Finding
 from core.log_readers.limits import ReadLimits
 from core.log_readers.text_description import NAMED_DELIMITERS, Column, TextFile
+from core.wording import counted
 
 BLANKS = frozenset(("", "-", "na", "n/a", "null", "none", "nan"))
 """Fields that say nothing; in a range they mean no echo."""
@@ -70,7 +71,9 @@ def read_table(
                 skipped.append(Finding.at("last line cut in the middle", [number], source))
                 continue
             raise LogError(
-                f"{len(fields)} columns where the rows above have {layout.width}", source, number
+                f"{counted(len(fields), 'column')} where the rows above have {layout.width}",
+                source,
+                number,
             )
         values.extend(_numbers([fields[i] for i in layout.wanted], file, source, number))
         numbers.append(number)

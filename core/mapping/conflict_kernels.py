@@ -6,29 +6,12 @@ from __future__ import annotations
 import numba
 import numpy as np
 
-from core.mapping.cell_voices import (
-    ask_around,
-    cells_of,
-    centre_of,
-    covered_until,
-    enlist,
-    in_arc,
-    loudest,
-    loudest_shown,
-    matters_since,
-    tile_of,
-)
+from core.mapping.cell_voices import cells_of, enlist, loudest_shown, tile_of
 from core.mapping.conflict_calls import call, next_called, watch
-from core.mapping.conflict_ledger import (
-    LAST_OF_PHASE,
-    MOST_ATTACKS,
-    NEVER,
-    NOBODY,
-    NOT_YET,
-    PHASE,
-    SEGMENTS,
-)
-from core.mapping.conflict_wins import attacks_on, first_attack, hangs_on, rewrite_wins, wins_differ
+from core.mapping.conflict_ledger import NEVER, NOBODY, SEGMENTS
+from core.mapping.conflict_spread import spread
+from core.mapping.conflict_timeline import timeline
+from core.mapping.conflict_wins import rewrite_wins, wins_differ
 
 
 @numba.njit(cache=True)
@@ -81,7 +64,7 @@ def _update(i, limits, cells, beams, arcs_of, reach_of, queue, sensor, scratch):
             n_arc += 1
     win_cell, win_loudness = np.empty(SEGMENTS, np.int64), np.empty(SEGMENTS, np.float32)
     win_span = np.empty((SEGMENTS, 2), np.int16)
-    end, opened, gap, wins = _timeline(
+    end, opened, gap, wins = timeline(
         i,
         n,
         arc[:n_arc],
@@ -119,166 +102,8 @@ def _update(i, limits, cells, beams, arcs_of, reach_of, queue, sensor, scratch):
     if end == old_end:
         return False
     beams.end[i] = end
-    _spread(i, n, old_end, limits, cells, beams, arcs_of, reach_of, queue, sensor, scratch)
+    spread(i, n, old_end, limits, cells, beams, arcs_of, reach_of, queue, sensor, scratch)
     return True
-
-
-@numba.njit(cache=True)
-def _timeline(
-    i,
-    n,
-    arc,
-    limits,
-    cells,
-    beams,
-    reach_of,
-    sensor,
-    scratch,
-    win_cell,
-    win_span,
-    win_loudness,
-):
-    """What befalls a reading round by round, as the others stand.
-
-    Returns the round in which it is dropped, the round from which on it is in no conflict and a cell
-    that shows it, and how often it wins; cell, rounds and loudness of that go to the last arguments.
-    """
-    begins, ends = np.empty(MOST_ATTACKS, np.int16), np.empty(MOST_ATTACKS, np.int16)
-    attacks = attacks_on(i, n, limits, cells, beams, scratch, begins, ends)
-    empty, empty_by, end_of = cells.empty, cells.empty_by, beams.end
-    more, chosen, stale = cells.more, cells.chosen, cells.stale
-    wins, t = 0, 0
-    while t < NEVER:
-        best, best_ratio, loudness, until = NOBODY, 0.0, np.float32(0), NEVER
-        for k in arc:
-            cell, p = scratch[0][k], np.float32(scratch[2][k])
-            most, gone = loudest(cell, t, empty, empty_by, end_of)
-            if stale[cell] or (most <= 0 and more[cell] > 0 and not chosen[cell]):
-                ask_around(cell, limits, cells, beams, reach_of, sensor)
-                most, gone = loudest(cell, t, empty, empty_by, end_of)
-            if most <= 0:
-                return first_attack(t, NEVER, attacks, begins, ends), t, cell, wins
-            until = min(until, gone)
-            if p / most > best_ratio:
-                best, best_ratio, loudness = cell, p / most, p
-        if best == NOBODY:
-            return first_attack(t, NEVER, attacks, begins, ends), t, NOBODY, wins
-        if best_ratio < 1:
-            end = min(first_attack(t, until, attacks, begins, ends), _sentence(t, until))
-            if end < NEVER:
-                return end, NEVER, NOBODY, wins
-        elif wins < SEGMENTS:
-            win_cell[wins], win_loudness[wins] = best, loudness
-            win_span[wins, 0], win_span[wins, 1] = t, until
-            wins += 1
-        t = until
-    return NEVER, NEVER, NOBODY, wins
-
-
-@numba.njit(cache=True)
-def _sentence(t, until):
-    """The first round in t..until in which losers are dropped."""
-    at = t // PHASE * PHASE + LAST_OF_PHASE
-    return at if at < until else NEVER
-
-
-@numba.njit(cache=True)
-def _spread(i, n, old, limits, cells, beams, arcs_of, reach_of, queue, sensor, scratch):
-    """The end of reading i has moved from round `old`: calls whoever that may concern."""
-    new = beams.end[i]
-    high = max(old, new)
-    shape = sensor[3]
-    empty, empty_by, end_of = cells.empty, cells.empty_by, beams.end
-    more, chosen, stale = cells.more, cells.chosen, cells.stale
-    changed, tiles = np.empty(n, np.int64), np.empty(n, np.int64)
-    starts, covered = np.empty(n, np.int16), np.empty(n, np.int16)
-    count = 0
-    for k in range(n):
-        cell, d = scratch[0][k], scratch[1][k]
-        tile = tile_of(cell, shape[1])
-        if old == NOT_YET and d <= beams.range_m[i] - limits[1]:
-            enlist(reach_of, tile, i)
-        if d > beams.range_m[i] - limits[0]:
-            continue
-        p = np.float32(scratch[2][k])
-        since = matters_since(i, cell, p, old, new, empty, empty_by, more, chosen, stale, end_of)
-        if since > high:
-            continue
-        starts[count], changed[count], tiles[count] = since, cell, tile
-        covered[count] = covered_until(cell, i, empty, empty_by, end_of)
-        count += 1
-        if since == 0:
-            w = cells.watcher[cell]
-            while w != NOBODY:
-                call(w, 0, queue)
-                w = beams.after[w]
-    done = np.zeros(count, np.bool_)
-    for k in range(count):
-        if not done[k]:
-            _call_arcs(
-                tiles[k],
-                k,
-                count,
-                tiles,
-                changed,
-                starts,
-                covered,
-                done,
-                new > old,
-                limits,
-                beams,
-                arcs_of,
-                queue,
-                sensor,
-            )
-
-
-@numba.njit(cache=True)
-def _call_arcs(
-    tile,
-    first,
-    last,
-    tiles,
-    changed,
-    starts,
-    covered,
-    done,
-    louder,
-    limits,
-    beams,
-    arcs_of,
-    queue,
-    sensor,
-):
-    """Calls the readings in conflict whose arcs cover changed cells of a tile, if that may matter."""
-    pose, axis, range_m = beams.pose, beams.axis, beams.range_m
-    opened, end_of, waiting = beams.opened, beams.end, queue.since
-    items, filled, following = arcs_of.items, arcs_of.filled, arcs_of.following
-    here = np.empty(last - first, np.int32)
-    count, earliest = 0, NEVER
-    for m in range(first, last):
-        if tiles[m] == tile:
-            done[m] = True
-            here[count] = m
-            count += 1
-            earliest = min(earliest, starts[m])
-    chunk = arcs_of.head[tile]
-    while chunk != NOBODY:
-        for j in range(filled[chunk]):
-            other = items[chunk, j]
-            latest = min(opened[other], end_of[other])
-            if opened[other] == 0 or latest < earliest:
-                continue
-            for m in here[:count]:
-                at = waiting[other]
-                if latest < starts[m] or (0 <= at <= starts[m]):
-                    continue
-                if louder and not hangs_on(other, changed[m], starts[m], covered[m], beams):
-                    continue
-                x, y = centre_of(changed[m], sensor[2], sensor[3])
-                if in_arc(other, x, y, limits[2], pose, axis, range_m):
-                    call(other, starts[m], queue)
-        chunk = following[chunk]
 
 
 @numba.njit(cache=True)

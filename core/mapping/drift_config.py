@@ -6,11 +6,11 @@ import math
 from dataclasses import dataclass, field
 
 from core.mapping.loop_closure import ClosureConfig
+from core.mapping.matching_config import MatchingConfig
 from core.mapping.odometry_model import OdometryNoise
 from core.mapping.point_alignment import AlignmentConfig
 from core.mapping.pose_graph import GraphConfig
 from core.mapping.reflection_points import ReflectionConfig
-from core.mapping.scan_matching import MatchingConfig
 from core.mapping.wall_direction import WallDirectionConfig
 
 

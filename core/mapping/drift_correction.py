@@ -28,7 +28,7 @@ from core.mapping.point_alignment import align
 from core.mapping.pose_graph import PoseGraph
 from core.mapping.reflection_points import path_length, reflection_points
 from core.mapping.said_links import SaidLinks
-from core.mapping.scan_matching import Submap
+from core.mapping.submap import Submap
 from core.progress import Progress, no_progress
 from core.sensing.robot_log import RobotLog
 from core.sensing.trajectory import Trajectory

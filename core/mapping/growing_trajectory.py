@@ -26,7 +26,7 @@ from core.mapping.odometry_calibration import OdometryCalibration
 from core.mapping.odometry_model import through_nodes, without_systematic_error
 from core.mapping.pose_graph import PoseGraph
 from core.mapping.reflection_points import ReflectionPoints, reflection_points
-from core.mapping.scan_matching import Submap
+from core.mapping.submap import Submap
 from core.sensing import RobotLog, Scan, SonarRing
 
 JUMP_STEP, JUMP_SPEED = 0.25, 2.0

@@ -15,8 +15,10 @@ import numpy as np
 
 from core.geometry import FloatArray, between
 from core.mapping.graph_terms import Link
+from core.mapping.matching_config import MatchingConfig
 from core.mapping.pose_graph import PoseGraph
-from core.mapping.scan_matching import Match, MatchingConfig, Submap, match
+from core.mapping.scan_matching import Match, match
+from core.mapping.submap import Submap
 
 
 @dataclass(frozen=True)

@@ -17,8 +17,8 @@ import numpy as np
 from scipy import ndimage
 
 from core.geometry import FloatArray
+from core.mapping.point_frames import points_in_world
 from core.mapping.reflection_points import ReflectionPoints
-from core.mapping.scan_matching import points_in_world
 
 
 @dataclass(frozen=True)

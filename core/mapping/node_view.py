@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from core.geometry import FloatArray
 from core.mapping.drift_config import DriftConfig
+from core.mapping.point_frames import points_from, points_of_stretch
 from core.mapping.pose_graph import PoseGraph
 from core.mapping.reflection_points import ReflectionPoints
-from core.mapping.scan_matching import Submap, points_from, points_of_stretch, submap
+from core.mapping.submap import Submap, submap
 from core.mapping.wall_direction import wall_direction, wrap_quarter
 
 

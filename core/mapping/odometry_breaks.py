@@ -14,9 +14,12 @@ from enum import StrEnum
 import numpy as np
 
 from core.geometry import FloatArray, IntArray, wrap_angle
+from core.mapping.matching_config import MatchingConfig
 from core.mapping.odometry_model import integrate, motions
+from core.mapping.point_frames import points_of_stretch
 from core.mapping.reflection_points import ReflectionPoints, path_length, reflection_points
-from core.mapping.scan_matching import MatchingConfig, match, points_of_stretch, submap
+from core.mapping.scan_matching import match
+from core.mapping.submap import submap
 from core.sensing.robot_log import RobotLog
 
 

@@ -76,12 +76,12 @@ class OdometryCalibration:
                 way = more if value > 0 else less
                 out.append(
                     f"Your robot {what} {100 * abs(value):.1f} % {way} than its odometry says "
-                    f"(+-{100 * sigma:.1f} %)."
+                    f"(±{100 * sigma:.1f} %)."
                 )
         if abs(self.drift_per_metre) >= sigmas * self.drift_per_metre_sigma:
             side = "left" if self.drift_per_metre > 0 else "right"
             out.append(
                 f"It drifts to the {side} by {math.degrees(abs(self.drift_per_metre)):.2f} degrees a "
-                f"metre (+-{math.degrees(self.drift_per_metre_sigma):.2f}) without its odometry noticing."
+                f"metre (±{math.degrees(self.drift_per_metre_sigma):.2f}) without its odometry noticing."
             )
         return tuple(out) or ("No systematic error of the odometry stands out in this log.",)

@@ -16,9 +16,9 @@ from scipy.spatial import cKDTree
 
 from core.geometry import FloatArray, IntArray, compose, inverse
 from core.mapping.graph_terms import PointLinks
+from core.mapping.point_frames import transform_each, unit
 from core.mapping.pose_graph import PoseGraph
 from core.mapping.reflection_points import ReflectionPoints
-from core.mapping.scan_matching import transform_each, unit
 
 
 @dataclass(frozen=True)

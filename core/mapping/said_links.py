@@ -17,8 +17,10 @@ from core.geometry import FloatArray, IntArray, between, compose, inverse
 from core.mapping.drift_edits import CLOSURE_ID, Dragged, DriftEdits
 from core.mapping.graph_terms import Link
 from core.mapping.loop_closure import Closure, closure_id
+from core.mapping.matching_config import MatchingConfig
 from core.mapping.pose_graph import PoseGraph
-from core.mapping.scan_matching import MatchingConfig, Submap, match
+from core.mapping.scan_matching import match
+from core.mapping.submap import Submap
 
 CLOCK = 0.5
 """Seconds that a time may lie outside of a drive: it was rounded, or pointed at from afar."""

@@ -26,12 +26,13 @@ from core.mapping.odometry_breaks import (
 )
 from core.mapping.odometry_calibration import OdometryCalibration
 from core.mapping.odometry_model import OdometryNoise, without_systematic_error
+from core.mapping.point_frames import points_in_world
 from core.mapping.reflection_points import ReflectionPoints, path_length, reflection_points
-from core.mapping.scan_matching import points_in_world
 from core.mapping.wall_direction import wall_sharpness
 from core.progress import Progress, no_progress, part_of
 from core.sensing.robot_log import RobotLog
 from core.sensing.trajectory import Trajectory
+from core.wording import counted
 
 OdometryChoice = Literal["raw", "calibrated", "corrected"]
 """What the command line, the API and the modelling form call the three."""
@@ -253,18 +254,22 @@ def _findings(
         out.append("What an earlier drive told of this robot's odometry was taken into account.")
     out += result.calibration.sentences()
     accepted = sum(closure.accepted for closure in result.closures)
-    out.append(
-        f"{accepted} places were found again ({len(result.closures) - accepted} more were tried and "
-        "rejected)."
-        if result.closures
-        else "No place was visited twice: only the directions of the walls speak about the drift."
-    )
+    out.append(_found_again(accepted, len(result.closures) - accepted))
     if used != choice:
         out.append(
             f"The {choice} odometry would not make the map sharper; "
             f"the {'odometry was kept as it is' if used == 'raw' else 'calibrated one was used'}."
         )
     return (*out, *_weak(log, part, result.trajectory, config))
+
+
+def _found_again(accepted: int, rejected: int) -> str:
+    """How many places closed a loop, and how many only looked as if they did."""
+    if accepted + rejected == 0:
+        return "No place was visited twice: only the directions of the walls speak about the drift."
+    found = f"{counted(accepted, 'place')} {'was' if accepted == 1 else 'were'} found again"
+    tried = f"{rejected} more {'was' if rejected == 1 else 'were'} tried and rejected"
+    return f"{found} ({tried})." if rejected else f"{found}."
 
 
 def _weak(
@@ -287,6 +292,6 @@ def _weak(
         for start, stop in zip(edges[::2], edges[1::2], strict=True):
             out.append(
                 f"The {what} is weak from {driven[start]:.0f} m to {driven[stop - 1]:.0f} m "
-                f"(+-{sigma[start:stop].max():.2g} {unit})."
+                f"(±{sigma[start:stop].max():.2g} {unit})."
             )
     return tuple(out)

@@ -32,6 +32,7 @@ from core.segmentation.hidden_pairs import hidden_pairs
 from core.segmentation.inheritance import reopened, with_region
 from core.segmentation.latest_regions import RevisionConfig, revised
 from core.segmentation.moment import Moment
+from core.wording import counted
 
 
 @dataclass(frozen=True)
@@ -121,7 +122,8 @@ def finish(
     latest = revised(state, grid, moment.rooms, config.revision, config.convexity)
     if not latest.decisions:
         return latest.state
-    said = f"{len(latest.decisions)} regions were cut or joined on the map of the whole drive"
+    changed = counted(len(latest.decisions), "region")
+    said = f"cut or joined on the map of the whole drive: {changed}"
     return _recorded(latest.state, moment, latest.clusters, latest.decisions, config, said)
 
 

@@ -19,6 +19,7 @@ from core.segmentation.hidden_pairs import hidden_pairs
 from core.segmentation.inheritance import reopened, with_region
 from core.segmentation.moment import Moment
 from core.segmentation.reliable_region import ReliableConfig, reliable_region
+from core.wording import counted
 
 
 @dataclass(frozen=True)
@@ -100,7 +101,7 @@ def finish_as_in_paper(
                 i + 1, measures, hidden, True, "end of the drive", region.number, region.parents
             )
         )
-    said = f"end of the drive: {len(decisions)} pieces were left"
+    said = f"end of the drive: {counted(len(decisions), 'piece')} left"
     return _recorded(state, moment, tuple(pieces), decisions, config, said)
 
 

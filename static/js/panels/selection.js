@@ -1,6 +1,6 @@
 // What is known of the node that is selected.
 import { h, replace } from "../dom.js";
-import { area, metres, nodeName } from "../format.js";
+import { area, count, metres, nodeName } from "../format.js";
 import { watch } from "../store.js";
 import { select } from "../view3d.js";
 import { chosenNodes } from "./edit_selection.js";
@@ -51,7 +51,7 @@ function fact(name, value, tip) {
 function room(model, node) {
   const found = model.rooms.find((item) => item.nodes.includes(node.id));
   if (!found || found.nodes.length < 2) return [];
-  return fact("Room", `${found.label ?? `room ${found.room}`}, ${found.nodes.length} regions`, "touching regions of one name are one room");
+  return fact("Room", `${found.label ?? `room ${found.room}`}, ${count(found.nodes.length, "region")}`, "touching regions of one name are one room");
 }
 
 function ways(model, node) {

@@ -43,7 +43,7 @@ export function stepChart(title, tip) {
         class: `chart-dot ${kind ?? ""}`, r: content.count > 60 ? 1.6 : 2.4, cx: x(index).toFixed(1), cy: y(each).toFixed(1),
       })),
       cursor, now);
-    plot.setAttribute("aria-label", `${title} over ${content.count} steps${content.label ?? ""}`);
+    plot.setAttribute("aria-label", `${title} over ${count(content.count, "step")}${content.label ?? ""}`);
   };
   const mark = (index, figure) => {
     const at = drawn.lines[0]?.values[index] ?? null;

@@ -10,7 +10,7 @@ from core.mapping.odometry_calibration import OdometryCalibration
 def test_a_clear_turn_error_is_told_with_its_uncertainty() -> None:
     found = OdometryCalibration(0.001, 0.021, 0.0, 0.004, 0.002, 0.001).sentences()
 
-    assert found == ("Your robot turns 2.1 % more than its odometry says (+-0.2 %).",)
+    assert found == ("Your robot turns 2.1 % more than its odometry says (±0.2 %).",)
 
 
 def test_drift_to_the_right_is_told() -> None:

@@ -10,8 +10,10 @@ import pytest
 from core.geometry import between
 from core.mapping.map_sharpness import map_sharpness
 from core.mapping.odometry_model import without_systematic_error
+from core.mapping.point_frames import points_in_world
 from core.mapping.reflection_points import reflection_points
-from core.mapping.scan_matching import match, points_in_world, submap
+from core.mapping.scan_matching import match
+from core.mapping.submap import submap
 from core.sensing import RobotLog
 
 
