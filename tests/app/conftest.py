@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-import httpx
+import httpx2
 import pytest
 from fastapi.testclient import TestClient
 
@@ -181,7 +181,7 @@ class Server:
         )
         assert self.process.stdout is not None
         self.url = self.process.stdout.readline().strip()
-        self.http = httpx.Client(base_url=self.url, timeout=30)
+        self.http = httpx2.Client(base_url=self.url, timeout=30)
 
     def upload(self, content: bytes) -> dict[str, Any]:
         answer = self.http.post("/api/logs", files={"file": ("drive.jsonl", content)})

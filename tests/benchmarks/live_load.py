@@ -20,7 +20,7 @@ import time
 from pathlib import Path
 from typing import Any
 
-import httpx
+import httpx2
 import numpy as np
 import psutil
 from websockets.asyncio.client import connect
@@ -45,7 +45,7 @@ async def robot(url: str, log: RobotLog, seconds: float, delay: float) -> dict[s
     sent: dict[float, float] = {}
     acked: list[float] = []
     taken: dict[float, float] = {}
-    async with httpx.AsyncClient(base_url=url, timeout=60) as client:
+    async with httpx2.AsyncClient(base_url=url, timeout=60) as client:
         body = {"mode": "mapping", "header": header_of(log)}
         session = (await client.post("/api/live", json=body)).json()["id"]
     base = f"{url.replace('http', 'ws', 1)}/api/live/{session}"

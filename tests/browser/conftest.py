@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-import httpx
+import httpx2
 import pytest
 
 from core.log_readers.native import write_native
@@ -50,9 +50,9 @@ class Product:
     process: subprocess.Popen[str]
 
     @property
-    def api(self) -> httpx.Client:
+    def api(self) -> httpx2.Client:
         """A client of its API."""
-        return httpx.Client(base_url=f"{self.url}/api", timeout=60)
+        return httpx2.Client(base_url=f"{self.url}/api", timeout=60)
 
     def stop(self) -> None:
         """Ends it as Ctrl-C does."""

@@ -18,7 +18,7 @@ import tempfile
 import time
 from pathlib import Path
 
-import httpx
+import httpx2
 import numpy as np
 from PIL import Image
 from playwright.sync_api import Page, sync_playwright
@@ -53,7 +53,7 @@ def main() -> None:
             write_native(log, path)
         product = _conftest().start_product(Path(folder) / "data")
         try:
-            with httpx.Client(base_url=f"{product.url}/api", timeout=120) as api:
+            with httpx2.Client(base_url=f"{product.url}/api", timeout=120) as api:
                 asked = {"name": "Simulated flat", "mode": "offline", "regions": options.regions}
                 model = _make_model(api, path, asked if log else {})
                 if log:
@@ -64,7 +64,7 @@ def main() -> None:
     _save(picture, options.out)
 
 
-def _make_model(api: httpx.Client, log: Path, asked: dict[str, object]) -> str:
+def _make_model(api: httpx2.Client, log: Path, asked: dict[str, object]) -> str:
     with log.open("rb") as file:
         log_id = api.post("/logs", files={"file": file}).raise_for_status().json()["id"]
     made = api.post("/models", json={"log_id": log_id, **asked}).raise_for_status().json()
@@ -75,7 +75,7 @@ def _make_model(api: httpx.Client, log: Path, asked: dict[str, object]) -> str:
     return str(made["id"])
 
 
-def _name_rooms(api: httpx.Client, model: str, home: Home, log: RobotLog) -> None:
+def _name_rooms(api: httpx2.Client, model: str, home: Home, log: RobotLog) -> None:
     """Gives every node the name of the room of the home that it lies in; doubles are told apart."""
     assert log.truth is not None
     home_from_map = compose(log.truth[0], inverse(log.odometry[0]))

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
-import httpx
+import httpx2
 import numpy as np
 import pytest
 from fastapi.testclient import TestClient
@@ -187,7 +187,7 @@ def test_killed_at_random_moments_nothing_confirmed_is_lost(
     for _ in range(kills):
         timer = threading.Timer(random.uniform(0.05, 0.5), server.process.kill)
         timer.start()
-        with contextlib.suppress(httpx.HTTPError):
+        with contextlib.suppress(httpx2.HTTPError):
             while True:
                 rest = [scan for scan in scans if scan["t"] > confirmed]
                 confirmed = server.http.post(f"{path}/scans", json=rest[:3]).json()["ack"]

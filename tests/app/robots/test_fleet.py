@@ -6,7 +6,7 @@ import time
 from collections.abc import Callable
 from typing import Any
 
-import httpx
+import httpx2
 import pytest
 from fastapi.testclient import TestClient
 
@@ -22,7 +22,7 @@ def wait_for(ask: Callable[[], Any], what: str) -> Any:
     return answer
 
 
-def make(http: httpx.Client, **order: Any) -> dict[str, Any]:
+def make(http: httpx2.Client, **order: Any) -> dict[str, Any]:
     answer = http.post("/api/robots", json={"speed": 10, **order}, timeout=PATIENCE_S)
     assert answer.status_code == 201, answer.text
     robot: dict[str, Any] = answer.json()
@@ -61,7 +61,7 @@ def test_a_robot_feeds_a_session_obeys_and_leaves_a_log_and_a_model(
     wait_for(lambda: http.get(session).json()["stored"] >= 40, "scans are stored")
     assert "simulated" in http.get(session).json()["name"]
 
-    def tell(**command: Any) -> httpx.Response:
+    def tell(**command: Any) -> httpx2.Response:
         return http.post(f"{path}/commands", json=command)
 
     assert tell(type="goal", x=-30, y=0).status_code == 422

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-import httpx
+import httpx2
 import msgspec
 import numpy as np
 import pytest
@@ -112,9 +112,9 @@ class ViewServer:
         return asyncio.run_coroutine_threadsafe(run(), self.loop).result(PATIENCE)
 
     @property
-    def http(self) -> httpx.Client:
+    def http(self) -> httpx2.Client:
         """A client of its pages and its API."""
-        return httpx.Client(base_url=f"http://127.0.0.1:{self.port}", timeout=PATIENCE)
+        return httpx2.Client(base_url=f"http://127.0.0.1:{self.port}", timeout=PATIENCE)
 
     def url(self, path: str) -> str:
         """The WebSocket URL of a path."""

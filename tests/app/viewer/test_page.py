@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import httpx
+import httpx2
 import pytest
 
 from app.viewer.page import CONTENT_POLICY
@@ -10,7 +10,7 @@ from app.viewer.page import CONTENT_POLICY
 
 @pytest.fixture
 def client(server):
-    with httpx.Client(base_url=f"http://127.0.0.1:{server.port}", timeout=10) as client:
+    with httpx2.Client(base_url=f"http://127.0.0.1:{server.port}", timeout=10) as client:
         yield client
 
 
