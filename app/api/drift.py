@@ -89,7 +89,23 @@ class DragBody(Body):
     heading: Heading | None = None
 
 
-DriftEditBody = Annotated[JudgeBody | SamePlaceBody | DragBody, Field(discriminator="op")]
+class ForgetPlaceBody(Body):
+    """These two times were called the same place; they no longer are."""
+
+    op: Literal["forget_same_place"]
+    t_source: Seconds
+    t_target: Seconds
+
+
+class ForgetDragBody(Body):
+    """The drive was dragged at this time; it no longer is."""
+
+    op: Literal["forget_drag"]
+    t: Seconds
+
+
+AnyDriftEdit = JudgeBody | SamePlaceBody | DragBody | ForgetPlaceBody | ForgetDragBody
+DriftEditBody = Annotated[AnyDriftEdit, Field(discriminator="op")]
 
 
 @router.get("/{model_id}/drift", summary="The drift of the model's drive")
@@ -173,9 +189,7 @@ def _keep(services: Services, model_id: str) -> RobotOdometry:
     return RobotOdometry.of(services.calibrations.keep(ring, record.name, report["calibration"]))
 
 
-def _change(
-    body: JudgeBody | SamePlaceBody | DragBody,
-) -> tuple[Callable[[DriftEdits], DriftEdits], str]:
+def _change(body: AnyDriftEdit) -> tuple[Callable[[DriftEdits], DriftEdits], str]:
     """What a body changes in what was said before, and what it says in words."""
     match body:
         case JudgeBody(op="accept"):
@@ -190,3 +204,8 @@ def _change(
         case DragBody():
             place = Dragged(body.t, body.x, body.y, body.heading)
             return lambda said: said.dragging(place), "dragged a stretch of the drive"
+        case ForgetPlaceBody():
+            places = SamePlace(body.t_source, body.t_target)
+            return lambda said: said.parting(places), "no longer called two places the same"
+        case ForgetDragBody():
+            return lambda said: said.releasing(body.t), "let a dragged stretch go"

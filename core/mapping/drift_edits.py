@@ -9,6 +9,8 @@ from __future__ import annotations
 import re
 from dataclasses import dataclass, replace
 
+from core.errors import InputError
+
 CLOSURE_ID = re.compile(r"c-?\d{1,15}_-?\d{1,15}")
 """What `Closure.id` looks like."""
 
@@ -61,10 +63,34 @@ class DriftEdits:
         """With two places called the same."""
         return replace(self, same_places=(*self.same_places, places))
 
+    def parting(self, places: SamePlace) -> DriftEdits:
+        """With two places no longer called the same.
+
+        Raises:
+            InputError: they were not.
+        """
+        others = tuple(said for said in self.same_places if said != places)
+        if len(others) == len(self.same_places):
+            raise InputError(
+                f"nobody called the places at {places.t_source:g} s and {places.t_target:g} s the same"
+            )
+        return replace(self, same_places=others)
+
     def dragging(self, place: Dragged) -> DriftEdits:
         """With a stretch put elsewhere; what was said about the same time before is replaced."""
         others = tuple(before for before in self.dragged if before.t != place.t)
         return replace(self, dragged=(*others, place))
+
+    def releasing(self, t: float) -> DriftEdits:
+        """With the stretch that was dragged at a time (s) left where the program puts it.
+
+        Raises:
+            InputError: none was.
+        """
+        others = tuple(said for said in self.dragged if said.t != t)
+        if len(others) == len(self.dragged):
+            raise InputError(f"nobody dragged the drive at {t:g} s")
+        return replace(self, dragged=others)
 
     def forgetting(self, closure_id: str) -> DriftEdits:
         """With nothing said about one closure: the program decides again."""

@@ -1,7 +1,7 @@
 // The right column while one looks at the drift of a drive: what was found, and what can be said about it.
 import { api } from "../api.js";
 import { h, icon, replace } from "../dom.js";
-import { clock, count } from "../format.js";
+import { clock } from "../format.js";
 import { link } from "../router.js";
 import { get, set, watch } from "../store.js";
 import { attempt, toast } from "../toasts.js";
@@ -82,19 +82,28 @@ function signed(value) {
   return `${value < 0 ? "−" : "+"}${Math.abs(value).toFixed(2)}`;
 }
 
-/** What a person has said so far. */
+/** What a person has said so far, each with the way to take it back. */
 function wordsOf(drift) {
-  const { rejected = [], accepted = [], same_places = [], dragged = [] } = drift.edits;
-  const at = (t) => clock(t - drift.trajectory[0][0]);
-  const lines = [
-    rejected.length && `${count(rejected.length, "closure")} rejected`,
-    accepted.length && `${count(accepted.length, "closure")} accepted`,
-    ...same_places.map((same) => `${at(same.t_source)} and ${at(same.t_target)} are the same place`),
-    ...dragged.map((item) => `${at(item.t)} belongs at (${item.x.toFixed(1)}, ${item.y.toFixed(1)})`),
-  ].filter(Boolean);
-  if (!lines.length) return [];
-  return [h("h2", {}, "Said so far"), h("ul", { class: "drift-found" }, lines.map((text) => h("li", {}, text))),
-    h("p", { class: "grew" }, h("button", { type: "button", class: "button", onclick: () => say(null) }, "Take all of it back"))];
+  const rows = saidRows(drift);
+  if (!rows.length) return [];
+  const remove = (text, change) => h("button", { type: "button", class: "link-button", "aria-label": `Remove: ${text}`, onclick: () => say(change) }, "Remove");
+  return [h("h2", {}, "Said so far"), h("ul", { class: "drift-said" }, rows.map(([text, change]) => h("li", {}, h("span", {}, text), remove(text, change)))),
+    rows.length > 1 && h("p", { class: "grew" }, h("button", { type: "button", class: "button", onclick: () => say(null) }, "Take all of it back"))];
+}
+
+/** What was said, in words, and the edit that takes it back. */
+function saidRows({ trajectory, edits }) {
+  const { rejected = [], accepted = [], same_places = [], dragged = [] } = edits;
+  const at = (t) => clock(t - trajectory[0][0]);
+  const both = (source, target) => `${at(source)} and ${at(target)}`;
+  const ends = (id) => both(...id.slice(1).split("_").map((millis) => Number(millis) / 1000));
+  const judged = (ids, verdict) => ids.map((id) => [`${ends(id)} are ${verdict}`, { op: "forget", closure: id }]);
+  return [
+    ...judged(rejected, "not the same place"),
+    ...judged(accepted, "the same place, as the sonar thought"),
+    ...same_places.map(({ t_source, t_target }) => [`${both(t_source, t_target)} are the same place`, { op: "forget_same_place", t_source, t_target }]),
+    ...dragged.map(({ t, x, y }) => [`${at(t)} belongs at (${x.toFixed(1)}, ${y.toFixed(1)})`, { op: "forget_drag", t }]),
+  ];
 }
 
 function listed(drift) {

@@ -108,6 +108,28 @@ def test_a_stretch_is_dragged_and_all_is_taken_back(
     assert shared_client.get(f"{model}/drift").json()["trajectory"] == before["trajectory"]
 
 
+def test_one_edit_of_several_is_taken_back_at_any_time(
+    shared_client: TestClient, model: str, wait_for_job: Wait
+) -> None:
+    before = shared_client.get(f"{model}/drift").json()
+    rows = before["trajectory"]
+    t, x, y = rows[len(rows) // 2][:3]
+    ends = {"t_source": rows[5][0], "t_target": rows[-5][0]}
+    say(shared_client, model, wait_for_job, op="same_place", **ends)
+    said = say(shared_client, model, wait_for_job, op="drag", t=t, x=x + 0.5, y=y)
+    assert said["edits"]["same_places"] == [ends]
+
+    parted = say(shared_client, model, wait_for_job, op="forget_same_place", **ends)
+
+    assert parted["edits"]["same_places"] == []
+    assert [item["t"] for item in parted["edits"]["dragged"]] == [t]
+    left = say(shared_client, model, wait_for_job, op="forget_drag", t=t)
+    assert left["trajectory"] == before["trajectory"]
+    again = shared_client.post(f"{model}/drift/edits", json={"op": "forget_drag", "t": t})
+    assert again.status_code == 422
+    assert "nobody dragged the drive" in again.json()["detail"]
+
+
 def test_what_cannot_be_fails_and_leaves_the_model_alone(
     shared_client: TestClient, model: str, wait_for_job: Wait
 ) -> None:

@@ -137,3 +137,18 @@ def test_the_same_words_give_the_same_trajectory(drive: RobotLog) -> None:
 def test_what_cannot_be_is_refused(drive: RobotLog, edits: DriftEdits, says: str) -> None:
     with pytest.raises(InputError, match=says):
         correct_drift(replace(drive, t=drive.t - drive.t[0]).slice(0, 300), edits=edits)
+
+
+def test_one_thing_that_was_said_is_taken_back_whatever_was_said_since() -> None:
+    door, hall = SamePlace(1.0, 50.0), SamePlace(2.0, 60.0)
+    said = DriftEdits().calling_same(door).dragging(Dragged(30.0, 1.0, 2.0)).calling_same(hall)
+
+    assert said.parting(door) == DriftEdits(same_places=(hall,), dragged=said.dragged)
+    assert said.releasing(30.0) == DriftEdits(same_places=(door, hall))
+
+
+def test_what_nobody_said_cannot_be_taken_back() -> None:
+    with pytest.raises(InputError, match="1 s and 50 s the same"):
+        DriftEdits().parting(SamePlace(1.0, 50.0))
+    with pytest.raises(InputError, match="dragged the drive at 30 s"):
+        DriftEdits().releasing(30.0)
