@@ -1,5 +1,6 @@
 // A small chart of values 0..1 over the steps that are played. A click or a drag goes to a step.
 import { h } from "../dom.js";
+import { count } from "../format.js";
 import { goTo } from "./player.js";
 
 const WIDTH = 320;
