@@ -65,7 +65,8 @@ function findings({ sentences, calibration }) {
     ["Drift", degrees(calibration.drift_per_metre), degrees(calibration.drift_per_metre_sigma), "°/m"],
   ];
   return [h("h2", {}, "What was found"), h("ul", { class: "drift-found" }, sentences.map((text) => h("li", {}, text))),
-    facts && h("dl", { class: "facts" }, facts.map(([name, value, sigma, unit]) => [h("dt", {}, `${name}, measured against true`), h("dd", {}, `${signed(value)} ± ${sigma.toFixed(2)} ${unit}`)])),
+    facts && h("p", { class: "muted drift-odometry" }, "The odometry, measured against true:"),
+    facts && h("dl", { class: "facts" }, facts.map(([name, value, sigma, unit]) => [h("dt", {}, name), h("dd", {}, `${signed(value)} ± ${sigma.toFixed(2)} ${unit}`)])),
     facts && h("p", { class: "grew" }, h("button", { type: "button", class: "button", onclick: keep }, "Keep for this robot"))];
 }
 
