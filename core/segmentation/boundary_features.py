@@ -124,10 +124,6 @@ def region_shapes(
     """The shape of each label of an image (rows, cols), 0 = none, by its clearances (m)."""
     count = int(cells.max(initial=0)) + 1
     area = np.bincount(cells.ravel(), minlength=count) * resolution**2
-    depth = np.zeros(count)
-    np.maximum.at(depth, cells.ravel(), clearance.ravel())
-    widest = np.zeros(count)
-    np.maximum.at(widest, cells.ravel(), bare.ravel())
     shapes = {}
     for value, box in enumerate(ndimage.find_objects(cells), start=1):
         if box is None:
@@ -138,7 +134,11 @@ def region_shapes(
         hull = convex_hull(points.astype(float))
         hull_area = polygon_area(hull) * resolution**2 + HULL_OFFSET
         shapes[value] = RegionShape(
-            float(area[value]), float(depth[value]), hull, hull_area, float(widest[value])
+            float(area[value]),
+            float(clearance[box][mask].max()),
+            hull,
+            hull_area,
+            float(bare[box][mask].max()),
         )
     return shapes
 

@@ -99,11 +99,13 @@ def _distinct(segments: list[FloatArray], same: float) -> FloatArray:
 def _first_of_each(stack, same):  # type: ignore[no-untyped-def]
     """Which segments lie no nearer than `same`, either way round, to an earlier one of them."""
     kept = np.ones(len(stack), np.bool_)
+    middle = (stack[:, 0] + stack[:, 1]) / 2
+    reach = same + 1
     for i in range(len(stack)):
         for j in range(i):
-            if kept[j] and (
-                _near(stack[j], stack[i], 0, same) or _near(stack[j], stack[i], 1, same)
-            ):
+            if not kept[j] or abs(middle[i, 0] - middle[j, 0]) > reach:
+                continue
+            if _near(stack[j], stack[i], 0, same) or _near(stack[j], stack[i], 1, same):
                 kept[i] = False
                 break
     return kept
