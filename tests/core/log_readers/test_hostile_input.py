@@ -25,7 +25,7 @@ SMALL = ReadLimits(max_bytes=20_000, max_line_bytes=5_000, max_lines=100, max_re
     ("content", "message"),
     [
         (b"", "the file is empty"),
-        (gzip.compress(b""), "the file is empty"),
+        (gzip.compress(b"", mtime=0), "the file is empty"),
         (b"\x89PNG\r\n\x1a\n" + bytes(50), "is a PNG image, not a robot log"),
         (b"\x1f\x8b\x08", "the gzip file ends early"),
         (b"PK\x03\x04" + bytes(50), "the zip is cut or damaged"),
