@@ -124,7 +124,9 @@ def finish(
         return latest.state
     changed = counted(len(latest.decisions), "region")
     said = f"cut or joined on the map of the whole drive: {changed}"
-    return _recorded(latest.state, moment, latest.clusters, latest.decisions, config, said)
+    goals = config.revision.grouping
+    thresholds = {"hidden_pairs": goals.most_hidden, "area_m2": goals.least_area}
+    return latest.state.recorded(moment, latest.clusters, latest.decisions, thresholds, said)
 
 
 def _recorded(

@@ -17,7 +17,8 @@ class Node:
         label: what a person calls it, or None.
         area_m2: free floor in square metres.
         position: world `(x, y)` of a free point deep inside the region.
-        convexity: share of the region's pairs of points that do not see each other (0 = convex).
+        convexity: share of the region's pairs of points that an obstacle hides from each other (0 =
+            convex).
         suggested_room: number of the group of nodes that the program takes for one room.
         came_from: ids of all earlier nodes that a merge or split made it from, its own id among
             them when it had another shape under it; empty when it is as the modeller cut it.

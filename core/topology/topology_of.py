@@ -10,7 +10,7 @@ from scipy import ndimage
 
 from core.geometry import BoolArray, IntArray
 from core.mapping import OccupancyGrid
-from core.mapping.occupancy_grid import FREE
+from core.mapping.occupancy_grid import OCCUPIED
 from core.segmentation.hidden_pairs import hidden_pairs
 from core.topology.contacts import Contact, contacts
 from core.topology.labels import with_rooms
@@ -78,7 +78,7 @@ def measured_node(
         corner: `[row, col]` of the part's lowest cell.
     """
     row, col = corner
-    blocked = grid.state[row : row + mask.shape[0], col : col + mask.shape[1]] != FREE
+    blocked = grid.state[row : row + mask.shape[0], col : col + mask.shape[1]] == OCCUPIED
     return Node(
         node_id,
         region,

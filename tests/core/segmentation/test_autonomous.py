@@ -2,8 +2,9 @@ import numpy as np
 
 from core.geometry import FloatArray
 from core.mapping import GridGeometry, OccupancyGrid
-from core.segmentation.autonomous import extract, finish
+from core.segmentation.autonomous import AutonomousConfig, extract, finish
 from core.segmentation.extraction_state import ExtractionState, lattice_corner, painted
+from core.segmentation.inheritance import with_region
 from core.segmentation.latest_regions import region_image
 from core.segmentation.moment import Moment
 
@@ -64,3 +65,21 @@ def test_regions_stay_where_they_are_when_the_grid_grows(two_rooms):
     after = wider.world_of(np.argwhere(painted(state.regions, bigger.geometry) > 0))
     assert np.allclose(before, after)
     assert lattice_corner(wider).tolist() == [-10, -20]
+
+
+def test_the_end_says_what_it_held_the_regions_against_and_whom_they_came_from(two_rooms):
+    grid, config = two_rooms, AutonomousConfig()
+    state, whole = with_region(ExtractionState(), grid.free, grid.geometry)
+    state = finish(state, seen(grid, RIGHT, 20.0), config)
+    (*_, last), cut = (
+        [e for e in state.history if e["event"] == event] for event in ("step", "extract")
+    )
+    assert last["thresholds"]["hidden_pairs"] == config.revision.grouping.most_hidden
+    assert [(e["came_from"], e["accepted"]) for e in cut] == [([whole.number], True)]
+    assert cut[0]["region"] == 2
+
+
+def test_the_same_end_comes_to_the_same_regions(two_rooms):
+    ends = [finish(ExtractionState(), seen(two_rooms, RIGHT, 20.0)) for _ in range(2)]
+    images = [region_image(end, two_rooms) for end in ends]
+    np.testing.assert_array_equal(*images)
