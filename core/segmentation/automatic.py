@@ -24,6 +24,7 @@ from core.segmentation.connected import renumber
 from core.segmentation.convex_split import ConvexSplitConfig, split_until_convex
 from core.segmentation.draft_cells import DraftConfig, clearance_of, draft_cells
 from core.segmentation.main_axis import main_axis
+from core.segmentation.map_character import map_character
 from core.segmentation.merging import RegionGraph, merge
 from core.segmentation.uncluttered import ClutterConfig, uncluttered
 
@@ -84,12 +85,12 @@ def segment_automatically(
     """
     config = config or AutomaticConfig()
     resolution = grid.geometry.resolution
-    floor = uncluttered(grid.free, resolution, config.clutter)
-    if not floor.any():
+    if not grid.free.any():
         raise MapError("the map has no free space to divide")
     progress(0.0, "looking for rooms")
     history: list[dict[str, Any]] = []
-    draft = draft_of(floor, grid.occupied, resolution, config.draft)
+    draft = draft_of(grid.free, grid.occupied, resolution, config.draft, config.clutter)
+    floor = draft[1].floor
     rooms = _rooms(*draft, model or stored_boundary_model(), config, history)
     del draft  # the largest images of a large map
     regions = _nodes(
@@ -101,15 +102,22 @@ def segment_automatically(
 
 
 def draft_of(
-    floor: BoolArray, occupied: BoolArray, resolution: float, config: DraftConfig
+    free: BoolArray,
+    occupied: BoolArray,
+    resolution: float,
+    config: DraftConfig,
+    clutter: ClutterConfig,
 ) -> tuple[IntArray, Surroundings]:
-    """Draft cells of a floor and what their borders are measured on."""
+    """Draft cells of free space and what their borders are measured on."""
+    floor = uncluttered(free, resolution, clutter)
     wall = np.asarray(ndimage.binary_dilation(occupied & ~floor, np.ones((3, 3))) & ~floor)
     axis = main_axis(wall)
     clearance = clearance_of(floor, resolution)
     cells = draft_cells(floor, clearance, resolution, config)
-    bare = clearance_of(uncluttered(floor, resolution, BARE), resolution)
-    return cells, Surroundings(floor, wall, clearance, bare, axis, resolution)
+    bare = uncluttered(floor, resolution, BARE)
+    character = map_character(free, floor, bare, resolution)
+    wide = clearance_of(bare, resolution)
+    return cells, Surroundings(floor, wall, clearance, wide, axis, resolution, character)
 
 
 def _rooms(

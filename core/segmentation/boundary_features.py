@@ -13,6 +13,7 @@ from core.geometry import FloatArray, IntArray
 from core.segmentation.boundary_points import Pair, boundary_points
 from core.segmentation.boundary_shape import BoundaryShape
 from core.segmentation.convex_hull import convex_hull, polygon_area
+from core.segmentation.map_character import MapCharacter
 
 FEATURES = (
     "passage / largest disc of the smaller region (log)",
@@ -57,6 +58,9 @@ FEATURES = (
     "neighbours of the smaller (log)",
     "neighbours of the larger (log)",
     "all open borders / sqrt(area) of the smaller (log)",
+    "floor of the map (log m2)",
+    "specks of the map (log per m2)",
+    "furniture of the map (log share of the floor)",
 )
 WALL_THICKNESS = 0.6
 """Metres: two regions that a thicker obstacle parts have no wall in common."""
@@ -64,6 +68,8 @@ SMALL = 0.05
 """Metres: the least width that is told from none."""
 LONG_BORDER = 0.85
 """Metres of a border per metre of its steps along rows and columns, on average."""
+FEWEST_SPECKS, LEAST_FURNITURE = 0.02, 0.01
+"""Per square metre, and share of the floor: what is told from none."""
 HULL_OFFSET = 0.1
 """Square metres added to hulls, so that the smallest ones have an area."""
 
@@ -176,6 +182,7 @@ def boundary_features(
     points: int,
     shape: BoundaryShape,
     wall: float,
+    character: MapCharacter,
     resolution: float,
 ) -> list[float]:
     """The numbers that `FEATURES` names.
@@ -186,6 +193,7 @@ def boundary_features(
         points: number of boundary points between them.
         shape: the border's surroundings.
         wall: metres of common wall.
+        character: of the whole map.
         resolution: metres per cell.
     """
     small, large = (a, b) if a.area <= b.area else (b, a)
@@ -237,4 +245,7 @@ def boundary_features(
         log(around_small.neighbours),
         log(around_large.neighbours),
         log(around_small.open / math.sqrt(small.area)),
+        log(character.area),
+        log(character.specks + FEWEST_SPECKS),
+        log(character.furniture + LEAST_FURNITURE),
     ]

@@ -15,6 +15,7 @@ import numpy as np
 
 from core.geometry import BoolArray, FloatArray
 from core.segmentation.boundary_walls import flush_walls, jambs, walls_in_line
+from core.segmentation.map_character import MapCharacter
 from core.segmentation.map_probe import free_run, value_at
 
 BRIDGED = 3.0
@@ -39,6 +40,7 @@ class Surroundings:
         bare: (rows, cols) the same when furniture that stands alone is carried out.
         axis: direction of the main walls (radians, modulo a right angle).
         resolution: metres per cell.
+        character: of the whole map.
     """
 
     floor: BoolArray
@@ -47,6 +49,7 @@ class Surroundings:
     bare: FloatArray
     axis: float
     resolution: float
+    character: MapCharacter
 
 
 class BoundaryShape(NamedTuple):

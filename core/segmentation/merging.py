@@ -64,6 +64,7 @@ class RegionGraph:
             len(border.points),
             border.shape,
             self._walls[a].get(b, 0.0),
+            self._around.character,
             self._around.resolution,
         )
 

@@ -14,7 +14,7 @@ from core.segmentation.connected import renumber
 from core.segmentation.convex_split import ConvexSplitConfig, split_until_convex
 from core.segmentation.draft_cells import DraftConfig
 from core.segmentation.label_growth import grown
-from core.segmentation.uncluttered import ClutterConfig, uncluttered
+from core.segmentation.uncluttered import ClutterConfig
 
 LEAST_AREA = 0.4
 """Square metres of a cell; .3 and .2 measured no better."""
@@ -54,8 +54,7 @@ def small_cells(
         config: parameters.
     """
     config, resolution = config or SmallCellConfig(), grid.geometry.resolution
-    whole = uncluttered(floor, resolution, config.clutter)
-    draft, _ = draft_of(whole, grid.occupied, resolution, config.draft)
+    draft, _ = draft_of(floor, grid.occupied, resolution, config.draft, config.clutter)
     draft = np.where(floor, draft, 0)
     cells, count = np.zeros(floor.shape, np.int64), 0
     for value, box in enumerate(ndimage.find_objects(draft), 1):

@@ -26,7 +26,6 @@ from core.mapping import GridGeometry, OccupancyGrid
 from core.mapping.map_server import read_map, write_map
 from core.pipeline.modeller import model_map
 from core.segmentation.automatic import AutomaticConfig, draft_of, segment_automatically
-from core.segmentation.uncluttered import uncluttered
 from core.topology.model_folder import write_model
 from core.topology.topology_of import topology_of
 
@@ -121,9 +120,11 @@ def main() -> None:
 def stages(folder: Path) -> None:
     """Prints a row for each stage."""
     grid = timed("read the map", lambda: read_map(folder / "plan" / "map.yaml"))
-    floor = timed("  floor without clutter", lambda: uncluttered(grid.free, RESOLUTION))
-    draft = AutomaticConfig().draft
-    timed("  draft cells", lambda: draft_of(floor, grid.occupied, RESOLUTION, draft))
+    config = AutomaticConfig()
+    timed(
+        "  draft cells",
+        lambda: draft_of(grid.free, grid.occupied, RESOLUTION, config.draft, config.clutter),
+    )
     found = timed("rooms and regions", lambda: segment_automatically(grid))
     timed("topology", lambda: topology_of(grid, found.regions, found.rooms))
     model = timed("model of the map, all of the above", lambda: model_map(grid))
