@@ -54,6 +54,8 @@ def small_cells(
         config: parameters.
     """
     config, resolution = config or SmallCellConfig(), grid.geometry.resolution
+    if not floor.any():
+        return np.zeros(floor.shape, np.int64)
     draft, _ = draft_of(floor, grid.occupied, resolution, config.draft, config.clutter)
     draft = np.where(floor, draft, 0)
     cells, count = np.zeros(floor.shape, np.int64), 0
