@@ -1,12 +1,12 @@
 """Regions found on drives through homes: autonomous by default, as in the paper, and with k given.
 
-    python tests/benchmarks/regions_homes.py [--homes 20] [--first 1001] [--jobs 2]
+    python tests/benchmarks/regions_homes.py [--homes 20] [--first 1001] [--jobs 2] [--odometry raw]
     python tests/benchmarks/regions_homes.py --data SHARED
 
 The first form drives through the paper home and random-1001 onwards, which nothing was chosen on
-(random-1 ... random-999 are there to choose), with calibrated odometry; the frame of the odometry is
-laid on the truth by one rigid fit. The second one takes the drives and the truth of an independent
-simulator from SHARED/homes. The odometry is used as it is in the log.
+(random-1 ... random-999 are there to choose), with the errors of calibrated odometry; the frame of the
+trajectory is laid on the truth by one rigid fit. The second one takes the drives and the truth of an
+independent simulator from SHARED/homes. The odometry is corrected as it is by default, or used raw.
 
 "upper ref." is no method: it knows the true map and the true rooms, and divides each room into as few
 and as large regions as hidden pairs allow. No method that keeps the limit can be expected to reach a
@@ -20,7 +20,7 @@ import json
 import sys
 import time
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from multiprocessing import Pool
 from pathlib import Path
 
@@ -29,9 +29,11 @@ import numpy as np
 from core.evaluation import GroundTruth
 from core.evaluation.ground_truth import aligned, alignment
 from core.evaluation.region_metrics import RegionMetrics, region_metrics
+from core.geometry import FloatArray
 from core.log_readers.registry import read_log
 from core.mapping import FREE, OCCUPIED, UNKNOWN, GridGeometry, OccupancyGrid
 from core.pipeline.modeller import ModellingOptions, model_log
+from core.pipeline.odometry import OdometryChoice
 from core.segmentation.convex_grouping import GroupingConfig, grouped
 from core.segmentation.small_cells import small_cells
 from core.sensing import RobotLog
@@ -41,9 +43,9 @@ RESOLUTION = 0.05
 SHARED_HOMES = ("home21", "home22", "home23", "home24")
 DRIVE_SEED = 1001
 METHODS = {
-    "autonomous": ModellingOptions(odometry="raw"),
-    "paper": ModellingOptions(method="paper", odometry="raw"),
-    "k = 10": ModellingOptions(regions=10, odometry="raw"),
+    "autonomous": ModellingOptions(),
+    "paper": ModellingOptions(method="paper"),
+    "k = 10": ModellingOptions(regions=10),
 }
 UPPER = "upper ref."
 MOST_HIDDEN = 0.2
@@ -80,7 +82,7 @@ COLUMNS: dict[str, tuple[Callable[[Row], float], Callable[[Iterable[float]], flo
 """What is shown of a home, and which of two values is the worse."""
 
 
-def own_home(name: str) -> list[Row]:
+def own_home(name: str, odometry: OdometryChoice) -> list[Row]:
     """A home of the product's own simulator."""
     home = build_home(name)
     log = simulate(home, seed=DRIVE_SEED)
@@ -90,10 +92,10 @@ def own_home(name: str) -> list[Row]:
         true.geometry, true.occupied, true.free, true.explored(log), true.rooms, true.names,
         true.door_gaps,
     )  # fmt: skip
-    return rows(name, log, truth, alignment(log.truth, log.odometry))
+    return rows(name, log, truth, log.truth, odometry)
 
 
-def shared_home(folder: str, name: str) -> list[Row]:
+def shared_home(folder: str, name: str, odometry: OdometryChoice) -> list[Row]:
     """A home of the independent simulator."""
     stored = np.load(Path(folder) / "truth" / f"{name}.npz", allow_pickle=False)
     meta = json.loads(str(stored["meta"]))
@@ -104,17 +106,25 @@ def shared_home(folder: str, name: str) -> list[Row]:
         stored["rooms"].astype(np.int64), tuple(meta["rooms"]), np.zeros((0, 4)),
     )  # fmt: skip
     log = read_log(Path(folder) / "logs" / f"{name}_map.jsonl.gz").log
-    return rows(name, log, truth, np.zeros(3))
+    return rows(name, log, truth, None, odometry)
 
 
-def rows(name: str, log: RobotLog, truth: GroundTruth, pose_truth_map: np.ndarray) -> list[Row]:
-    """All methods on one drive."""
+def rows(
+    name: str,
+    log: RobotLog,
+    truth: GroundTruth,
+    true_poses: FloatArray | None,
+    odometry: OdometryChoice,
+) -> list[Row]:
+    """All methods on one drive; without true poses (n, 3) the frames of log and truth are one."""
     found = []
     for method, options in METHODS.items():
         start = time.process_time()
-        model = model_log(log.without_truth(), options)
+        model = model_log(log.without_truth(), replace(options, odometry=odometry))
         seconds = time.process_time() - start
-        geometry = aligned(model.grid.geometry, pose_truth_map)
+        geometry = model.grid.geometry
+        if true_poses is not None and model.trajectory is not None:
+            geometry = aligned(geometry, alignment(true_poses, model.trajectory.poses))
         found.append(Row(name, method, region_metrics(model.regions, geometry, truth), seconds))
     start = time.process_time()
     regions = upper_reference(truth)
@@ -164,14 +174,20 @@ def main() -> None:
     parser.add_argument("--homes", type=int, default=20)
     parser.add_argument("--first", type=int, default=1001)
     parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--odometry", choices=("corrected", "raw"), default="corrected")
     options = parser.parse_args()
     with Pool(options.jobs) as pool:
         if options.data is None:
             names = [f"random-{options.first + i}" for i in range(options.homes)]
-            tasks = [pool.apply_async(own_home, (name,)) for name in ["paper", *names]]
+            tasks = [
+                pool.apply_async(own_home, (name, options.odometry)) for name in ["paper", *names]
+            ]
         else:
             folder = str(options.data / "homes")
-            tasks = [pool.apply_async(shared_home, (folder, name)) for name in SHARED_HOMES]
+            tasks = [
+                pool.apply_async(shared_home, (folder, name, options.odometry))
+                for name in SHARED_HOMES
+            ]
         sys.stdout.write(f"{'':24s} rooms {' '.join(f'{name:>11s}' for name in COLUMNS)}\n")
         found: list[Row] = []
         for task in tasks:
