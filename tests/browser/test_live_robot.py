@@ -40,12 +40,12 @@ def test_a_robot_maps_is_named_a_room_and_finds_itself_again(product, robot, ope
     expect(rows.first).to_be_visible(timeout=PATIENCE_MS)
     wait_for(product, robot, lambda r: r["distance_m"] > 12)
 
-    name = rows.first.get_by_role("textbox")
+    node = rows.first.get_attribute("data-node")
+    name = page.locator(f"tr[data-node='{node}'] input")
     name.fill("kitchen")
     name.press("Enter")
-    node = rows.first.get_attribute("data-node")
     wait_for(product, robot, lambda r: r["distance_m"] > 18)
-    expect(page.locator(f"tr[data-node='{node}'] input")).to_have_value("kitchen")
+    expect(name).to_have_value("kitchen")
 
     page.get_by_role("button", name="Localize in this map").click()
     wait_for(product, robot, lambda r: r["mode"] == "localization" and r["task"] != "waiting")
