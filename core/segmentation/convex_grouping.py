@@ -25,7 +25,7 @@ class GroupingConfig:
 
     Attributes:
         most_hidden: share of hidden pairs that a region may have. Maps hold phantoms and miss
-            walls: with .185 there, no region of 86 % of 29 simulated homes hides more than .2.
+            walls: a little less than the .2 that regions should keep to in the home itself.
         hidden_cost: of a hidden pair in one region; a pair that sees each other is worth 1.
         apart_cost: of a pair of two suggested rooms in one region.
         excess_cost: of each hidden pair above the limit.
