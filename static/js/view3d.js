@@ -236,9 +236,10 @@ addEventListener("resize", () => sendHeight());
 addEventListener("message", (event) => {
   if (event.origin !== location.origin || event.source !== current?.frame.contentWindow) return;
   if (event.data?.type === "drive") handlers.onDrive?.(String(event.data.key), event.data.down === true);
-  if (event.data?.type === "key") {
-    press({ key: String(event.data.key), ctrlKey: event.data.ctrl, metaKey: event.data.meta, altKey: event.data.alt, shiftKey: event.data.shift, target: null });
-  }
+});
+addEventListener("view-key", (event) => {
+  const { frame, ...key } = event.detail;
+  if (frame === current?.frame.contentWindow && press({ ...key, target: null })) event.preventDefault();
 });
 onTheme((chosen) => {
   sendTheme();

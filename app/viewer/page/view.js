@@ -64,8 +64,10 @@
     if (plays && playerKeys.has(event.key.toLowerCase())) event.stopImmediatePropagation();
     else if (cameraKeys.has(event.key.toLowerCase()) && !event.ctrlKey && !event.metaKey) return;
     if (event.key === "k" && (event.ctrlKey || event.metaKey)) event.stopImmediatePropagation();
-    parent.postMessage({
-      type: "key", key: event.key, ctrl: event.ctrlKey, meta: event.metaKey, alt: event.altKey, shift: event.shiftKey,
-    }, window.location.origin);
+    // Dispatched, not posted: "r" has to put the cursor into a name before the next key is typed.
+    const pressed = new parent.CustomEvent("view-key", { cancelable: true, detail: {
+      frame: window, key: event.key, ctrlKey: event.ctrlKey, metaKey: event.metaKey, altKey: event.altKey, shiftKey: event.shiftKey,
+    } });
+    if (!parent.dispatchEvent(pressed)) event.preventDefault();
   }, true);
 })();
