@@ -48,9 +48,10 @@ class Theme(_Message):
 
 
 class Viewport(_Message):
-    """Page -> view: height of the 3D view in CSS pixels."""
+    """Page -> view: size of the 3D view in CSS pixels."""
 
     type: Literal["viewport"]
+    width: float = Field(gt=0, lt=20_000, allow_inf_nan=False)
     height: float = Field(gt=0, lt=20_000, allow_inf_nan=False)
 
 

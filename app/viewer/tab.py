@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import viser
 
@@ -42,23 +42,8 @@ from app.viewer.playback import Playback as PlaybackState
 from app.viewer.tab_camera import TabCamera, camera_view
 from app.viewer.tab_live import TabLive
 from app.viewer.tab_scene import TabScene
+from app.viewer.tab_state import TabState
 from core.geometry import FloatArray
-
-_DEFAULT_HEIGHT = 800.0
-
-
-@dataclass
-class TabState:
-    """What a tab shows; it outlives a lost connection."""
-
-    selected: str | None = None
-    others: tuple[str, ...] = ()
-    layers: dict[str, bool] = field(default_factory=lambda: dict(DEFAULT_LAYERS))
-    theme: str = "light"
-    measuring: bool = False
-    measured: MeasuredLine = field(default_factory=MeasuredLine)
-    picking: bool = False
-    picture_height: float = _DEFAULT_HEIGHT
 
 
 class Tab:
@@ -75,7 +60,7 @@ class Tab:
         self.moment = MomentPlayback()
         self.drift = DriftPlayback()
         self.camera_link = CameraLink(self._stand_as)
-        self.camera = TabCamera(self._outline, self._declutter)
+        self.camera = TabCamera(self._outline, self._aspect, self._declutter)
         self.live = None if track is None else TabLive(track, self.playback, self.camera)
 
     @property
@@ -103,7 +88,7 @@ class Tab:
         self.scene = TabScene(client, drawing)
         self.scene.wear(state.theme)
         self.scene.layers.show(self._visible(state.layers))
-        self.scene.select(state.selected, state.others)
+        self._mark()
         self.scene.measure(state.measured.points)
         self.playback.again(self.scene)
         self.moment.again(self.scene, state.theme)
@@ -133,7 +118,7 @@ class Tab:
         if self.scene is not None:
             before = self.scene.drawing.nodes
             self.scene.redraw(drawing)
-            self.scene.select(self.state.selected, self.state.others)
+            self._mark()
             self.playback.again(self.scene, other_nodes=not _same_places(before, drawing.nodes))
             self.moment.again(self.scene, self.state.theme)
             self.drift.again(self.scene, self.state.theme)
@@ -160,6 +145,7 @@ class Tab:
                     self.drift.again(self.scene, message.theme)
             case Viewport():
                 self.state.picture_height = message.height
+                self.state.aspect = message.width / message.height
                 self.camera_moved()
             case Playback():
                 self._play(message)
@@ -192,7 +178,7 @@ class Tab:
                 self.tell(self.drift.pointed(drawing.drift, point))
             return
         node = picked_node(drawing, origin, direction)
-        if node != self.state.selected:
+        if node != self.state.selected and not self.moment.shown:
             self._select(node)
             self.tell(Selected(node=node))
 
@@ -221,7 +207,7 @@ class Tab:
     def _select(self, node: str | None, others: tuple[str, ...] = ()) -> None:
         self.state.selected, self.state.others = node, others
         if self.scene is not None:
-            self.scene.select(node, others)
+            self._mark()
             self.camera_moved()
 
     def _show(self, layers: dict[str, bool]) -> None:
@@ -230,9 +216,20 @@ class Tab:
         if self.scene is not None:
             self.scene.layers.show(self._visible(known))
 
+    @property
+    def _looks_back(self) -> bool:
+        """Whether the drive is shown instead of the finished model."""
+        return self.moment.shown or self.drift.shown
+
+    def _mark(self) -> None:
+        """Marks what is selected, unless the drive is shown: its moments had other regions."""
+        if self.scene is not None:
+            shown = (None, ()) if self._looks_back else (self.state.selected, self.state.others)
+            self.scene.select(*shown)
+
     def _visible(self, layers: dict[str, bool]) -> dict[str, bool]:
         """What layers show now: those of the finished model are hidden while its past is shown."""
-        hidden = FINISHED if self.moment.shown or self.drift.shown else ()
+        hidden = FINISHED if self._looks_back else ()
         return {name: shown and name not in hidden for name, shown in layers.items()}
 
     def _show_moment(self, message: Moment) -> None:
@@ -240,6 +237,7 @@ class Tab:
         self.moment.show(message, self.scene, self.state.theme)
         if before != self.moment.shown and self.scene is not None:
             self.scene.layers.show(self._visible(self.state.layers))
+            self._mark()
             if self.camera.kept is None:
                 self._go("fit")
 
@@ -248,6 +246,7 @@ class Tab:
         self.drift.show(message, self.scene, self.state.theme)
         if before != self.drift.shown and self.scene is not None:
             self.scene.layers.show(self._visible(self.state.layers))
+            self._mark()
 
     def _measure(self, on: bool) -> None:
         self.state.measuring = on
@@ -277,6 +276,10 @@ class Tab:
         if self.live is not None:
             return self.live.outline(scene.drawing, self.playback.outline(scene.drawing))
         return self.playback.outline(scene.drawing)
+
+    def _aspect(self, scene: TabScene) -> float:
+        """Of the picture. The browser's own camera hears late, or never, that its frame has changed."""
+        return self.state.aspect or scene.client.camera.aspect
 
     def _declutter(self, view: View) -> None:
         if self.scene is not None:

@@ -39,12 +39,17 @@ class TabCamera:
     """
 
     def __init__(
-        self, outline: Callable[[TabScene], FloatArray], settled: Callable[[View], None]
+        self,
+        outline: Callable[[TabScene], FloatArray],
+        aspect: Callable[[TabScene], float],
+        settled: Callable[[View], None],
     ) -> None:
-        """`outline` gives (K, 2) what must be in the picture; `settled` hears where it stands."""
+        """`outline` gives (K, 2) what must be in the picture, `aspect` that picture's width over its
+        height; `settled` hears where the camera stands."""
         self.standard = "3d"
         self.kept: View | None = None
         self._outline = outline
+        self._aspect = aspect
         self._settled = settled
         self._fitted: Fitted | None = None
         self._aim: Fitted | None = None
@@ -107,13 +112,13 @@ class TabCamera:
         self.moved(scene)
 
     def _stand_at_standard(self, scene: TabScene) -> None:
-        self._fitted = self._aim = Fitted(self._fit(scene), scene.client.camera.aspect)
+        self._fitted = self._aim = Fitted(self._fit(scene), self._aspect(scene))
         self._sent_at = time.monotonic()
         scene.stand_at(self._fitted.view, self._far(scene))
 
     def _fit(self, scene: TabScene) -> View:
         fit = fit_top if self.standard == "top" else fit_3d
-        return fit(self._outline(scene), scene.client.camera.aspect)
+        return fit(self._outline(scene), self._aspect(scene))
 
     def _far(self, scene: TabScene) -> float:
         return farthest(self._fit(scene), scene.drawing.outline)
@@ -125,7 +130,7 @@ class TabCamera:
         if self._aim is not None and self._is_on_its_way(view):
             self._fitted = self._aim
             self.kept = None
-            if abs(scene.client.camera.aspect / self._aim.aspect - 1) > _SAME_ASPECT:
+            if abs(self._aspect(scene) / self._aim.aspect - 1) > _SAME_ASPECT:
                 self._stand_at_standard(scene)
                 view = camera_view(scene.client)
         else:

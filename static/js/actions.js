@@ -7,8 +7,8 @@ import { showLocalizations } from "./panels/localization_actions.js";
 import { announce } from "./panels/edit_actions.js";
 import { ended, followJob } from "./jobs.js";
 import { go, link } from "./router.js";
-import { get, set } from "./store.js";
-import { attempt, showError, toast } from "./toasts.js";
+import { get, same, set } from "./store.js";
+import { attempt, showError, single, toast } from "./toasts.js";
 import { classify, sendLog, sendMap } from "./upload.js";
 
 let stopFollowing = null;
@@ -23,11 +23,6 @@ export async function refreshLists() {
     if (error.status === 0) set({ offline: true });
     else showError(error);
   }
-}
-
-/** The old value when nothing in it has changed, so that nothing is drawn again. */
-function same(old, fresh) {
-  return JSON.stringify(old) === JSON.stringify(fresh) ? old : fresh;
 }
 
 export async function showRoute(route) {
@@ -100,21 +95,31 @@ export async function reloadModel() {
   if (!id) return;
   await attempt(async () => {
     const model = await api.model(id);
-    if (get().route.id === route.id) set({ model });
+    if (get().route.id === route.id) takeModel(model);
   });
+}
+
+/** Shows a model as the API tells it, unless something newer of it is shown already: answers overtake each other. */
+export function takeModel(model) {
+  const shown = get().model;
+  if (shown?.id !== model.id || shown.revision <= model.revision) set({ model: same(shown, model) });
 }
 
 export async function labelNode(node, label) {
   const { model } = get();
-  const before = model.nodes;
-  set({ model: { ...model, nodes: before.map((item) => (item.id === node ? { ...item, label: label || null } : item)) } });
+  const before = model.nodes.find((item) => item.id === node)?.label ?? null;
+  const show = (text) => {
+    const shown = get().model;
+    if (shown?.id === model.id) set({ model: { ...shown, nodes: shown.nodes.map((item) => (item.id === node ? { ...item, label: text } : item)) } });
+  };
+  show(label || null);
   try {
     const answer = await api.labelNode(model.id, node, label || null);
-    if (get().model?.id === model.id) set({ model: answer });
+    if (get().model?.id === model.id) takeModel(answer);
     announce(answer);
     refreshLists();
   } catch (error) {
-    if (get().model?.id === model.id) set({ model: { ...get().model, nodes: before } });
+    show(before);
     showError(error);
   }
 }
@@ -152,13 +157,11 @@ export async function createModel(body) {
   go(link.model(id));
 }
 
-export async function addLog(model, log) {
-  await attempt(async () => {
-    await api.addLog(model.id, log);
-    await refreshLists();
-    await showRoute(get().route);
-  });
-}
+export const addLog = single((model, log) => attempt(async () => {
+  await api.addLog(model.id, log);
+  await refreshLists();
+  await showRoute(get().route);
+}));
 
 export async function cancelJob(id) {
   await attempt(() => api.cancelJob(id));

@@ -24,9 +24,21 @@ export function append(element, children) {
   }
 }
 
+const CONTROLS = "a, button, input, select, textarea, summary";
+
+/** Puts other children into an element; a control that had the focus keeps it, or hands it to its successor. */
 export function replace(element, ...children) {
+  const focused = element.contains(document.activeElement) ? document.activeElement : null;
   element.replaceChildren();
   append(element, children);
+  if (!focused || focused === element) return;
+  const successor = [...element.querySelectorAll(CONTROLS)].find((other) => other === focused || calledLike(other, focused));
+  successor?.focus({ preventScroll: true });
+}
+
+function calledLike(one, other) {
+  const name = (control) => control.getAttribute("aria-label") ?? control.getAttribute("href") ?? control.textContent;
+  return one.tagName === other.tagName && name(one) === name(other);
 }
 
 const PATHS = {

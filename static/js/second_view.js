@@ -1,7 +1,8 @@
 // A second model beside the one that is open: its 3D view moves with the first, and looks like it.
 import { h } from "./dom.js";
-import { get, set, watch } from "./store.js";
+import { get, same, set, watch } from "./store.js";
 import { onTheme, theme } from "./theme.js";
+import { watchSize } from "./view_size.js";
 import { SHARPNESS, onConnected, tabToken, tell as tellFirst } from "./view3d.js";
 
 let second = null; // {model, frame, socket}
@@ -14,7 +15,7 @@ export function openBeside(model, box) {
     class: "view3d", title: "3D view of the other model", src: `view/${encodeURIComponent(model)}/tab/${tabToken()}/${SHARPNESS}`,
   });
   frame.addEventListener("load", sendTheme);
-  second = { model, frame, socket: null };
+  second = { model, frame, socket: null, tellSize: watchSize(frame, tell) };
   box.prepend(frame);
   connect(second);
   tellFirst({ type: "beside", model });
@@ -41,11 +42,12 @@ function connect(view) {
   socket.onopen = () => {
     tell({ type: "theme", theme: theme() });
     tell({ type: "layers", layers: get().layers });
+    view.tellSize();
     tellFirst({ type: "beside", model: view.model });
   };
   socket.onmessage = (event) => {
     const message = JSON.parse(event.data);
-    if (view === second && (message.type === "hello" || message.type === "labels")) set({ otherColours: message.colours });
+    if (view === second && (message.type === "hello" || message.type === "labels")) set({ otherColours: same(get().otherColours, message.colours) });
   };
   socket.onclose = () => {
     if (view === second) setTimeout(() => view === second && connect(view), 2000);

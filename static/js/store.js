@@ -62,6 +62,11 @@ export function set(changes) {
   for (const key of changed) pending.add(key);
 }
 
+/** The old value when nothing in it has changed, so that nothing is drawn again. */
+export function same(old, fresh) {
+  return JSON.stringify(old) === JSON.stringify(fresh) ? old : fresh;
+}
+
 /** Runs `draw` now and after every change of one of the keys. */
 export function watch(keys, draw) {
   const listener = { keys: new Set(keys), draw };

@@ -22,6 +22,20 @@ export function showError(error) {
   toast(error.message || "Something went wrong.", { kind: "error" });
 }
 
+/** Async work of which a second call, while it runs, does nothing: buttons are clicked twice. */
+export function single(work) {
+  let runs = false;
+  return async (...given) => {
+    if (runs) return undefined;
+    runs = true;
+    try {
+      return await work(...given);
+    } finally {
+      runs = false;
+    }
+  };
+}
+
 /** Runs async work from an event handler; a failure becomes a toast. */
 export async function attempt(work) {
   try {

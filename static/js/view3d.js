@@ -2,8 +2,9 @@
 import { h } from "./dom.js";
 import { token } from "./format.js";
 import { press } from "./shortcuts.js";
-import { get, set } from "./store.js";
+import { get, same, set } from "./store.js";
 import { onTheme, theme } from "./theme.js";
+import { watchSize } from "./view_size.js";
 
 const TAB_KEY = "echorooms.tab";
 const RETRY_MS = [500, 1000, 2000, 4000, 8000];
@@ -42,7 +43,7 @@ export function openView(model, frameBox) {
     sendTheme();
     sendKeys();
   });
-  current = { model, frame, socket: null, tries: 0, timer: null };
+  current = { model, frame, socket: null, tries: 0, timer: null, tellSize: watchSize(frame, tell) };
   set({ connection: "connecting", selected: null, colours: {}, measuring: false, measured: null, view: "3d" });
   frameBox.prepend(frame); // below the strips
   connect(current);
@@ -138,7 +139,7 @@ function connect(view) {
     if (moment) tell({ type: "moment", ...moment });
     tell({ type: "live", ...get().liveView });
     tell({ type: "pick", on: get().picking !== null });
-    sendHeight();
+    view.tellSize();
     for (const callback of connected) callback();
   };
   socket.onmessage = (event) => {
@@ -156,7 +157,7 @@ function connect(view) {
 function hear(message) {
   switch (message.type) {
     case "hello":
-      set({ colours: message.colours });
+      set({ colours: same(get().colours, message.colours) });
       greet(message);
       handlers.onLabels?.(message.labels);
       break;
@@ -168,7 +169,7 @@ function hear(message) {
       handlers.onSelected?.(message.node);
       break;
     case "labels":
-      set({ colours: message.colours });
+      set({ colours: same(get().colours, message.colours) });
       handlers.onLabels?.(message.labels);
       break;
     case "camera":
@@ -188,13 +189,12 @@ function hear(message) {
   }
 }
 
-/** The first time the view says what this tab shows; after a lost connection the page does. */
+/** The first time the view says what this tab shows; after a lost connection, or a click meanwhile, the page does. */
 function greet({ layers, selected }) {
-  if (!current.greeted) set({ layers, selected, picked: [] });
-  else {
-    tell({ type: "layers", layers: get().layers });
-    select(get().selected, get().picked);
-  }
+  if (!current.greeted) set({ layers });
+  else tell({ type: "layers", layers: get().layers });
+  if (!current.greeted && get().selected === null) set({ selected, picked: [] });
+  else select(get().selected, get().picked);
   current.greeted = true;
 }
 
@@ -205,11 +205,6 @@ function sendTheme() {
 /** While something is played, the arrows left and right are the player's, not the camera's. */
 function sendKeys() {
   current?.frame.contentWindow?.postMessage({ type: "keys", player: belief !== null || moment !== null, drives }, location.origin);
-}
-
-function sendHeight() {
-  const height = current?.frame.clientHeight;
-  if (height) tell({ type: "viewport", height });
 }
 
 /** One token per tab; a copied tab gets its own, since session storage is copied with it. */
@@ -232,7 +227,6 @@ export function tabToken() {
   return tabToken.value;
 }
 
-addEventListener("resize", () => sendHeight());
 addEventListener("message", (event) => {
   if (event.origin !== location.origin || event.source !== current?.frame.contentWindow) return;
   if (event.data?.type === "drive") handlers.onDrive?.(String(event.data.key), event.data.down === true);

@@ -4,20 +4,20 @@ import { refreshLists, showRoute } from "../actions.js";
 import { h, replace } from "../dom.js";
 import { clock } from "../format.js";
 import { get, set, watch } from "../store.js";
-import { attempt, toast } from "../toasts.js";
+import { attempt, single, toast } from "../toasts.js";
 
 const NEAR_M = 1.5; // metres from the drive at which a click still means it
 const APART_S = 5; // seconds between two visits of a place
 
 /** Sends what was said; the model is made again with it. */
-export async function say(change) {
+export const say = single(async (change) => {
   const { model, route } = get();
   set({ driftTool: null });
   const answer = await attempt(() => (change === null ? api.forgetDriftEdits(model.id) : api.editDrift(model.id, change)));
   if (!answer) return;
   refreshLists();
   if (get().route.id === route.id) await showRoute(get().route);
-}
+});
 
 /** A click in the 3D view while the drift is shown. */
 export function pointed({ point, t, away_m }) {

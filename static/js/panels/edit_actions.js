@@ -1,21 +1,20 @@
 // Edits of nodes: each is sent, shown, and can be taken back from its message.
 import { api } from "../api.js";
-import { refreshLists } from "../actions.js";
-import { get, set } from "../store.js";
-import { attempt, toast } from "../toasts.js";
+import { refreshLists, takeModel } from "../actions.js";
+import { get } from "../store.js";
+import { attempt, single, toast } from "../toasts.js";
 import { select } from "../view3d.js";
 
 /** Sends an edit of the shown model; true when it was made. */
-export async function edit(change, picks = (model, before) => get().selected) {
+export const edit = single(async (change, picks = () => get().selected) => {
   const before = get().model;
   const answer = await attempt(() => api.edit(before.id, change));
   if (!answer) return false;
   take(answer);
-  const node = picks(answer, before);
-  if (get().model?.id === answer.id) select(node);
+  if (get().model?.id === answer.id) select(picks(answer));
   announce(answer);
   return true;
-}
+});
 
 /** Says what the last edit was, with a way back as long as nothing else has happened. */
 export function announce(model) {
@@ -24,14 +23,22 @@ export function announce(model) {
 }
 
 export function undo(revision) {
-  return turn((model) => model.can_undo, (model) => api.undo(model.id, revision), (before) => `Undone: ${before.last_edit}.`);
+  return turn((model) => model.can_undo, (model) => api.undo(model.id, revision), (answer) => `Undone: ${answer.undone_edit}.`);
 }
 
 export function redo() {
-  return turn((model) => model.can_redo, (model) => api.redo(model.id), (before) => `Done again: ${before.undone_edit}.`);
+  return turn((model) => model.can_redo, (model) => api.redo(model.id), (answer) => `Done again: ${answer.last_edit}.`);
 }
 
-async function turn(possible, send, words) {
+let turned = Promise.resolve();
+
+/** One after the other: a second one that is asked for at once finds what the first one made. */
+function turn(possible, send, words) {
+  turned = turned.then(() => turnNow(possible, send, words));
+  return turned;
+}
+
+async function turnNow(possible, send, words) {
   const before = get().model;
   if (!before || (before.nodes && !possible(before))) return;
   const answer = await attempt(() => send(before));
@@ -40,11 +47,11 @@ async function turn(possible, send, words) {
   const known = new Set(answer.nodes.map((node) => node.id));
   const { selected, picked } = get();
   if (![selected, ...picked].every((id) => id === null || known.has(id))) select(known.has(selected) ? selected : null);
-  toast(words(before));
+  toast(words(answer));
 }
 
 function take(answer) {
-  if (get().model?.id === answer.id) set({ model: answer });
+  if (get().model?.id === answer.id) takeModel(answer);
   refreshLists();
 }
 

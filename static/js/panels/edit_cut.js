@@ -21,6 +21,7 @@ export function stopCut() {
 export function cutStrip(root) {
   const strip = h("div", { class: "strip", role: "status", hidden: true });
   root.append(strip);
+  let offered = null; // the line for which Split has had the focus
   watch(["cutting", "measured", "measuring", "model", "connection", "selected"], (state) => {
     const { cutting, measured, measuring, model, connection, selected } = state;
     const node = model?.nodes?.find((item) => item.id === cutting);
@@ -33,16 +34,24 @@ export function cutStrip(root) {
       return;
     }
     strip.hidden = !node || connection === "lost";
-    if (node) show(strip, node, measured);
+    if (!node) return;
+    const split = show(strip, node, measured);
+    if (split && measured !== offered && !isTyping()) split.focus();
+    offered = measured;
   });
 }
 
+/** Draws the strip; returns the button that splits once there is a line to split along. */
 function show(strip, node, measured) {
   const drawn = measured?.points.length === 2;
   const split = h("button", { type: "button", class: "button button-primary", onclick: () => cut(node.id, measured.points) }, "Split");
   replace(strip, words(node, measured), drawn && split,
     h("button", { type: "button", class: "link-button", onclick: stopCut }, "Cancel"));
-  if (drawn) split.focus();
+  return drawn ? split : null;
+}
+
+function isTyping() {
+  return document.activeElement.matches("input, textarea, select");
 }
 
 function words(node, measured) {

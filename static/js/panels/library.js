@@ -40,11 +40,11 @@ export function library(root) {
     fill(models, allModels, (model) => matches(words, model.name, ...model.labels), "No model yet. Open a log to make one.", (model) => libraryItem({
       kind: "model", item: model, current: route.page === "model" && route.id === model.id, href: link.model(model.id),
       facts: STATUS[model.status] ?? `${count(model.node_count, "region")} · ${bytes(model.size_bytes)}`,
-      state: model.status,
+      state: model.status, redraw: () => draw(get()),
     }));
     fill(logs, allLogs, (log) => matches(words, log.name), "No log yet.", (log) => libraryItem({
       kind: "log", item: log, current: route.page === "log" && route.id === log.id, href: link.log(log.id),
-      facts: `${duration(log.duration_s)} · ${log.distance_m.toFixed(0)} m · ${bytes(log.size_bytes)}`,
+      facts: `${duration(log.duration_s)} · ${log.distance_m.toFixed(0)} m · ${bytes(log.size_bytes)}`, redraw: () => draw(get()),
     }));
   };
   watch(["models", "logs", "lives", "route"], draw);
@@ -71,7 +71,6 @@ function section(title) {
 
 function fill(part, items, keep, empty, draw) {
   if (part.list.contains(document.activeElement) && document.activeElement.tagName === "INPUT") return;
-  const focused = document.activeElement?.closest?.("[data-item]")?.dataset.item;
   if (items === null) {
     replace(part.list, h("li", { class: "skeleton" }), h("li", { class: "skeleton" }));
     return;
@@ -79,7 +78,6 @@ function fill(part, items, keep, empty, draw) {
   const kept = items.filter(keep);
   part.number.textContent = items.length ? String(items.length) : "";
   replace(part.list, kept.length ? kept.map(draw) : h("li", { class: "nothing" }, items.length ? "Nothing matches." : empty));
-  if (focused) part.list.querySelector(`[data-item="${CSS.escape(focused)}"] a`)?.focus();
 }
 
 function matches(words, ...texts) {

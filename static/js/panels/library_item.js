@@ -2,7 +2,7 @@
 import { h, iconButton, replace } from "../dom.js";
 import { remove, rename } from "../actions.js";
 
-export function libraryItem({ kind, item, current, href, facts, state }) {
+export function libraryItem({ kind, item, current, href, facts, state, redraw }) {
   const element = h("li", { class: current ? "item current" : "item", dataset: { item: `${kind}:${item.id}`, state: state ?? "" } });
   const show = () => replace(element,
     h("a", { href, "aria-current": current ? "page" : null, title: item.name },
@@ -21,6 +21,7 @@ export function libraryItem({ kind, item, current, href, facts, state }) {
       const name = input.value.trim();
       input.blur();
       show();
+      redraw();
       if (keep && name && name !== item.name) await rename(kind, item, name);
     };
     input.addEventListener("keydown", (event) => {
@@ -29,6 +30,7 @@ export function libraryItem({ kind, item, current, href, facts, state }) {
     });
     input.addEventListener("blur", () => finish(true));
     replace(element, input);
+    input.focus();
     input.select();
   };
   show();

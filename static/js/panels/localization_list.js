@@ -17,11 +17,9 @@ export function localizationList(root) {
   replace(root, h("h2", {}, "Where is the robot?"), form.element, list);
   watch(["logs", "model"], ({ logs, model }) => form.offer(logs ?? [], model));
   watch(["localizations", "localizing", "route"], ({ localizations, localizing, route }) => {
-    const focused = list.contains(document.activeElement) && document.activeElement.closest("[data-item]")?.dataset.item;
     if (localizations === null) replace(list);
     else if (!localizations.length) replace(list, h("li", { class: "nothing" }, "Not localized yet. Choose a drive and see the probability of every room, step by step."));
     else replace(list, localizations.map((item) => row(item, localizing[item.id], route)));
-    if (focused) list.querySelector(`[data-item="${CSS.escape(focused)}"] a`)?.focus();
   });
 }
 

@@ -9,6 +9,7 @@ import { choose, isChoosing } from "./edit_selection.js";
 export function nodeTable(root) {
   const body = h("tbody", {});
   const rows = new Map();
+  let shown = null; // id of the model whose nodes the rows are
   replace(root,
     h("h2", {}, "Rooms", h("small", {}, "click to select, Ctrl adds")),
     h("table", { class: "nodes" },
@@ -20,20 +21,28 @@ export function nodeTable(root) {
   );
   watch(["model", "colours", "selected", "picked"], ({ model, colours, selected, picked }) => {
     const nodes = model?.nodes ?? [];
-    const ids = nodes.map((node) => node.id).join("\n");
-    if (body.dataset.ids !== ids) {
-      body.dataset.ids = ids;
+    if (shown !== model?.id) {
+      shown = model?.id;
       rows.clear();
-      for (const node of nodes) rows.set(node.id, row(node.id));
-      replace(body, nodes.map((node) => rows.get(node.id).element));
     }
+    for (const node of nodes) if (!rows.has(node.id)) rows.set(node.id, row(node.id));
+    arrange(body, nodes.map((node) => rows.get(node.id).element));
     for (const node of nodes) rows.get(node.id).update(node, doors(model, node.id), colours[node.id], node.id === selected || picked.includes(node.id));
+  });
+}
+
+/** Shows these rows in this order; one that stays is not moved, so that nobody's typing is disturbed. */
+function arrange(body, elements) {
+  const wanted = new Set(elements);
+  for (const row of [...body.children]) if (!wanted.has(row)) row.remove();
+  elements.forEach((element, index) => {
+    if (body.children[index] !== element) body.insertBefore(element, body.children[index] ?? null);
   });
 }
 
 /** Puts the cursor into the name of the selected node. */
 export function renameSelected() {
-  document.querySelector("tr.selected input")?.focus();
+  document.querySelector(`tr[data-node="${CSS.escape(get().selected ?? "")}"] input`)?.focus();
 }
 
 export function doors(model, id) {
