@@ -18,6 +18,8 @@ from core.log_readers.safe_yaml import describe, load_yaml
 from core.mapping.map_result import MAX_CELLS
 from core.mapping.occupancy_grid import FREE, OCCUPIED, GridGeometry, OccupancyGrid
 
+BRIGHTEST_16_BIT = 65535
+"""Pillow scales pictures of more than 8 bits to this, whatever their own maximum is."""
 PIXEL_FREE, PIXEL_UNKNOWN, PIXEL_OCCUPIED = 254, 205, 0
 OCCUPIED_THRESHOLD, FREE_THRESHOLD = 0.65, 0.196
 
@@ -109,14 +111,21 @@ def _brightness(path: Path) -> FloatArray:
                 )
             if image.mode in ("RGBA", "LA", "P"):
                 return _over_unknown(image)
-            if image.mode.startswith(("I", "F")):
+            if image.mode.startswith("I"):
+                return np.asarray(image, float) / BRIGHTEST_16_BIT
+            if image.mode == "F":
                 values = np.asarray(image, float)
                 return np.asarray(values / max(float(values.max()), 1.0))
             return np.asarray(image.convert("L"), float) / 255
     except OSError as error:
         what = "is no picture" if isinstance(error, UnidentifiedImageError) else str(error)
         raise MapError(f"{path.name}: {error.strerror or what}") from error
-    except (Image.DecompressionBombError, ValueError, SyntaxError) as error:
+    except Image.DecompressionBombError as error:
+        raise TooLargeError(
+            f"{path.name}: more than {2 * (Image.MAX_IMAGE_PIXELS or 0)} pixels; at most {MAX_CELLS} "
+            "are read; scale it down and raise the resolution in map.yaml"
+        ) from error
+    except (ValueError, SyntaxError) as error:
         raise MapError(f"{path.name}: {error}") from error
 
 

@@ -57,6 +57,7 @@ export const api = {
   renameModel: (model, name) => request("PATCH", `api/models/${id(model)}`, { name }),
   deleteModel: (model) => request("DELETE", `api/models/${id(model)}`),
   labelNode: (model, node, label) => request("PATCH", `api/models/${id(model)}/nodes/${id(node)}`, { label }),
+  labelRoom: (model, room, label) => request("PATCH", `api/models/${id(model)}/rooms/${id(room)}`, { label }),
   comparison: (model, other) => request("GET", `api/models/${id(model)}/comparison/${id(other)}`),
   drift: (model) => request("GET", `api/models/${id(model)}/drift`),
   editDrift: (model, change) => request("POST", `api/models/${id(model)}/drift/edits`, change),

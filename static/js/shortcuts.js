@@ -18,7 +18,8 @@ export function startShortcuts() {
 export function press({ key, ctrlKey, metaKey, altKey, shiftKey, target }) {
   if (altKey || document.querySelector("dialog[open]")) return false;
   const typing = target instanceof Element && target.closest("input:not([type=checkbox]):not([type=radio]), textarea, select");
-  if (typing) return false;
+  const onlyChooses = typing && (ctrlKey || metaKey) && typing.matches("select, input[type=range]"); // nothing of its own to undo
+  if (typing && !onlyChooses) return false;
   const found = shortcuts.get(nameOf(key, ctrlKey || metaKey, shiftKey));
   if (!found) return false;
   if (key === " " && target instanceof Element && target.closest("button, a, summary, input")) return false;

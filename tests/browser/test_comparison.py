@@ -27,6 +27,14 @@ def test_two_models_of_one_drive_are_held_against_each_other(product, drive, ope
     page.get_by_role("link", name="Rooms", exact=True).click()
     expect(page.locator("iframe.view3d")).to_have_count(1)
 
+    page.go_back()
+    expect(page.locator("iframe.view3d")).to_have_count(2)
+    product.api.delete(f"/models/{models[1]}")
+    page.evaluate("dispatchEvent(new Event('focus'))")
+    page.wait_for_url(f"**/models/{models[0]}")
+    expect(page.locator(".toast")).to_contain_text("The model beside it is gone.")
+    expect(page.locator("iframe.view3d")).to_have_count(1)
+
 
 def quick_model(product, log: str, regions: int) -> str:
     """A coarse model of a log; its id."""

@@ -14,6 +14,16 @@ PATIENCE_MS = 120_000
 MODEL_PATIENCE_S = 240
 SHOWN = "(name) => Boolean(window.__viserSceneTree?.getState()[name])"
 """Whether the 3D view has a node of that name."""
+HEIGHTS = """
+() => {
+  const floor = document.querySelector(".convexity").getBoundingClientRect().bottom;
+  const limit = floor - document.querySelector(".convexity-limit").getBoundingClientRect().top;
+  const bars = [...document.querySelectorAll(".convexity-bar")];
+  const highest = Math.max(...bars.map((bar) => bar.firstChild.getBoundingClientRect().height));
+  return [limit, highest];
+}
+"""
+"""Pixels above the floor of the chart: of the line, of the highest bar."""
 
 
 def grown_model(product, path) -> str:
@@ -43,9 +53,12 @@ def test_a_person_replays_how_a_model_grew(product, drive, open_tab):
     moments = product.api.get(f"/models/{model}/timeline").json()
     first = next(i for i, m in enumerate(moments) if any(d["accepted"] for d in m["decisions"]))
     page = open_tab(f"{product.url}/{COARSE}#/models/{model}")
-    expect(page.locator(".convexity-bar")).to_have_count(
-        len(product.api.get(f"/models/{model}").json()["nodes"])
-    )
+    made = product.api.get(f"/models/{model}").json()
+    expect(page.locator(".convexity-bar")).to_have_count(len(made["nodes"]))
+    limit, highest = page.evaluate(HEIGHTS)
+    most = made["provenance"]["segmentation"].get("most_hidden", 0.2)
+    shown = max(node["convexity"] for node in made["nodes"])
+    assert limit / highest == pytest.approx(most / shown, rel=0.1)
 
     page.get_by_role("link", name="How it grew along the drive").click()
     expect(page.locator(".player-place")).to_contain_text(f"Step {first + 1} of {len(moments)}")
@@ -58,6 +71,11 @@ def test_a_person_replays_how_a_model_grew(product, drive, open_tab):
     wait_until(page, lambda: frame.evaluate(SHOWN, "/moment/chosen/yes"))
 
     page.keyboard.press("End")
+    expect(page.locator(".player-place")).to_contain_text(f"Step {len(moments)} of")
+    node = made["nodes"][0]["id"]
+    with page.expect_response(f"**/models/{model}/timeline"):
+        product.api.patch(f"/models/{model}/nodes/{node}", json={"label": "kitchen"})
+    expect(page.locator(f"tr[data-node='{node}'] input")).to_have_value("kitchen")
     expect(page.locator(".player-place")).to_contain_text(f"Step {len(moments)} of")
     page.get_by_role("link", name="Rooms", exact=True).click()
     expect(page.locator("#player")).to_be_hidden()

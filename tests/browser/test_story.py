@@ -130,16 +130,14 @@ def test_the_view_obeys_the_page(product, drive, open_tab):
 
     page.keyboard.press("2")
     page.wait_for_selector("button[aria-pressed=true]:has-text('Top')")
-    page.wait_for_timeout(600)
-    fov = view_frame(page).evaluate("() => window.__viserMutable.camera.fov")
-    assert fov == pytest.approx(6, abs=0.1)
+    fov = "() => window.__viserMutable.camera.fov"
+    sync_expect(lambda: view_frame(page).evaluate(fov) == pytest.approx(6, abs=0.1), page)
 
     page.keyboard.press("m")
     box = page.locator("iframe.view3d").bounding_box()
-    for share in (0.4, 0.6):
+    for share, next_shown in ((0.4, "text=Now click the other end"), (0.6, ".strip strong")):
         page.mouse.click(box["x"] + share * box["width"], box["y"] + 0.5 * box["height"])
-        page.wait_for_timeout(400)
-    page.wait_for_selector(".strip strong")
+        page.wait_for_selector(next_shown)
     shown = page.locator(".strip strong").inner_text()
     assert float(shown.removesuffix(" m")) > 0.5
     wait_for_label(page, shown)
@@ -151,8 +149,9 @@ def test_the_view_obeys_the_page(product, drive, open_tab):
     sync_expect(lambda: view_frame(page).evaluate(walls) is False, page)
 
     page.keyboard.press("t")
-    theme = view_frame(page).evaluate("() => document.documentElement.dataset.theme")
-    assert theme == page.evaluate("() => document.documentElement.dataset.theme") == "dark"
+    theme = "() => document.documentElement.dataset.theme"
+    for frame in (page.main_frame, view_frame(page)):
+        sync_expect(lambda frame=frame: frame.evaluate(theme) == "dark", page)
 
     with page.expect_download() as picture:
         page.keyboard.press("p")

@@ -5,7 +5,7 @@ import { area, metres, nodeName, percent } from "../format.js";
 import { go, link } from "../router.js";
 import { selectBeside } from "../second_view.js";
 import { get, set, watch } from "../store.js";
-import { showError } from "../toasts.js";
+import { showError, toast } from "../toasts.js";
 import { select } from "../view3d.js";
 
 const SAME = 0.9; // overlap from which on two nodes are called the same
@@ -14,14 +14,21 @@ export function comparePanel(root) {
   const head = h("header", { class: "localization-head" });
   const body = h("div", { class: "stack" });
   replace(root, head, body);
-  let asked = null;
-  watch(["route", "model"], ({ route, model }) => {
-    const ready = route.compare && model?.id === route.id && model.status === "done";
-    const key = ready ? `${route.id} ${route.compare} ${model.revision}` : null;
+  let pair = null;
+  let asked = null; // the pair and its revisions
+  watch(["route", "model", "models"], ({ route, model, models }) => {
+    const ready = route.compare && models && model?.id === route.id && model.status === "done";
+    const other = ready && models.find((item) => item.id === route.compare);
+    if (ready && !other) {
+      toast("The model beside it is gone.", { kind: "error" });
+      go(link.model(route.id));
+    }
+    const now = other ? `${route.id} ${route.compare}` : null;
+    const key = other ? `${now} ${model.revision} ${other.revision}` : null;
     if (key === asked) return;
-    asked = key;
-    set({ comparison: null });
-    if (ready) load(route.id, route.compare, () => asked === key);
+    if (now !== pair) set({ comparison: null });
+    [pair, asked] = [now, key];
+    if (key) load(route.id, route.compare, () => asked === key);
   });
   watch(["route", "model", "models", "comparison", "colours", "otherColours"], (state) => {
     if (!state.route.compare || !state.model) return;

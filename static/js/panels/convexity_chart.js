@@ -20,7 +20,7 @@ export function convexityChart(root) {
     replace(root,
       h("h2", {}, "Convexity", h("small", { title: "share of pairs of points of a region that do not see each other" }, "hidden pairs, 0 is convex")),
       h("div", { class: "convexity", style: { height: `${HEIGHT}px` }, role: "group", "aria-label": "Hidden pairs of every region" },
-        h("span", { class: "convexity-limit", style: { bottom: high(threshold) }, title: `a region may have ${threshold}` }, threshold.toFixed(2)),
+        h("span", { class: "convexity-limit", style: { bottom: high(threshold) }, title: `a region may have ${threshold}` }, h("em", {}, threshold.toFixed(2))),
         model.nodes.map((node) => h("button", {
           type: "button", class: `convexity-bar${node.id === selected ? " selected" : ""}`, dataset: { convexity: node.id },
           title: `${nodeName(node)}: ${node.convexity.toFixed(2)}`, "aria-label": `${nodeName(node)}: ${node.convexity.toFixed(2)} hidden pairs`,

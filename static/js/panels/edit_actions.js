@@ -16,6 +16,15 @@ export const edit = single(async (change, picks = () => get().selected) => {
   return true;
 });
 
+/** Gives all regions of a room one name; null takes it away. */
+export const nameRoom = single(async (room, label) => {
+  const { model } = get();
+  const answer = await attempt(() => api.labelRoom(model.id, room, label));
+  if (!answer) return;
+  take(answer);
+  announce(answer);
+});
+
 /** Says what the last edit was, with a way back as long as nothing else has happened. */
 export function announce(model) {
   const text = sentence(model.last_edit);

@@ -1,10 +1,12 @@
 // What can be done with the selected nodes: merge, split, move to another room.
 import { h } from "../dom.js";
 import { nodeName } from "../format.js";
-import { edit } from "./edit_actions.js";
+import { edit, nameRoom } from "./edit_actions.js";
 import { startCut, stopCut } from "./edit_cut.js";
+import { askRoomName } from "./room_dialog.js";
 
 const OWN_ROOM = "own";
+const CHANGES_AT_ONCE = /^(Arrow.*|Home|End|Page.*|\S)$/;
 
 /** Buttons for one node. */
 export function nodeTools(model, node, cutting) {
@@ -17,7 +19,19 @@ export function nodeTools(model, node, cutting) {
     }, "Split…"),
     menu("Merge with…", around.map((other) => [other.id, nodeName(other)]), (id) => merge([node.id, id])),
     menu("Move to…", rooms(model, node, around), (id) => edit({ op: "move", node: node.id, room: id === OWN_ROOM ? null : id })),
+    roomButton(model, node),
   );
+}
+
+/** A room of several regions is named as a whole. */
+function roomButton(model, node) {
+  const room = model.rooms.find((item) => item.nodes.includes(node.id));
+  if (room.nodes.length < 2) return null;
+  const name = async () => {
+    const label = await askRoomName(room, model.nodes.filter((item) => room.nodes.includes(item.id)));
+    if (label !== undefined) nameRoom(room.id, label || null);
+  };
+  return h("button", { type: "button", class: "button", title: "All of its regions get one name", onclick: name }, `Name its room of ${room.nodes.length} regions…`);
 }
 
 /** Buttons for several nodes. */
@@ -56,6 +70,11 @@ export function roomName(model, room) {
 function menu(title, choices, run) {
   const list = h("select", { "aria-label": title, disabled: !choices.length, title: choices.length ? undefined : "nothing touches it" },
     h("option", { value: "" }, title), choices.map(([value, text]) => h("option", { value }, text)));
+  list.addEventListener("keydown", (event) => {
+    if (!CHANGES_AT_ONCE.test(event.key) || event.ctrlKey || event.metaKey || event.altKey) return;
+    event.preventDefault(); // a closed list takes the next line at such a key, and this one would do it
+    list.showPicker();
+  });
   list.addEventListener("change", () => {
     const value = list.value;
     list.value = "";

@@ -15,7 +15,7 @@ export function growthCharts(root) {
     const threshold = (name) => [...new Set(moments.map((moment) => moment.thresholds[name]).filter((value) => typeof value === "number"))];
     hidden.draw({ ...series(moments, leastHidden), dots: dots(moments, (decision) => decision.hidden_pairs), thresholds: threshold("hidden_pairs") });
     c1.draw({ ...series(moments, (moment) => moment.decisions[0]?.c1 ?? null), dots: [], thresholds: threshold("c1") });
-    c2.draw({ ...series(moments, best), dots: dots(moments, (decision) => decision.c2), thresholds: [] });
+    c2.draw({ count: moments.length, lines: [{ values: moments.map(best) }, { values: moments.map(mostC2), kind: "limit" }], dots: dots(moments, (decision) => decision.c2), thresholds: [] });
   });
   watch(["stepIndex", "timeline"], ({ stepIndex, timeline }) => {
     if (timeline?.length) for (const chart of charts) chart.mark(stepIndex);
@@ -34,6 +34,11 @@ function dots(moments, valueOf) {
 
 function leastHidden(moment) {
   return moment.decisions.length ? Math.min(...moment.decisions.map((decision) => decision.hidden_pairs)) : null;
+}
+
+/** Where the paper holds C2 against a share of C1 (eq. 9). */
+function mostC2({ thresholds, decisions }) {
+  return typeof thresholds.c2_per_c1 === "number" && decisions.length ? thresholds.c2_per_c1 * decisions[0].c1 : null;
 }
 
 function best(moment) {

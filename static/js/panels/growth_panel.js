@@ -40,7 +40,7 @@ function listed(moment, chosen) {
 
 function item(decision, index, chosen) {
   const name = decision.accepted ? `Part ${decision.cluster} became region ${decision.region}` : `Part ${decision.cluster} waits`;
-  const from = decision.came_from.length ? `, cut from ${count(decision.came_from.length, "region")} ${decision.came_from.join(", ")}` : "";
+  const from = decision.came_from.length ? `, cut from ${regions(decision.came_from)}` : "";
   const facts = [
     ["C1", decision.c1.toFixed(2), "eq. 7 of all that was left"], ["C2", decision.c2.toFixed(2), "eq. 8 of the part and the rest"],
     ["hidden", decision.hidden_pairs.toFixed(2), "share of hidden pairs of the part"],
@@ -52,6 +52,11 @@ function item(decision, index, chosen) {
   h("span", { class: `key ${decision.accepted ? "key-extracted" : "key-rejected"}` }),
   h("span", { class: "decision-name" }, name), h("span", { class: "decision-why" }, `${decision.reason}${from}`),
   h("span", { class: "decision-facts" }, facts.map(([what, value, tip]) => h("span", { title: tip }, h("em", {}, what), ` ${value}`)))));
+}
+
+/** "region 4", "regions 1, 5 and 6" */
+function regions(numbers) {
+  return numbers.length === 1 ? `region ${numbers[0]}` : `regions ${numbers.slice(0, -1).join(", ")} and ${numbers.at(-1)}`;
 }
 
 function legend() {

@@ -1,6 +1,6 @@
 // How a model grew along its drive: loading the moments, and what the 3D view shows of one.
 import { api } from "../api.js";
-import { get, set, watch } from "../store.js";
+import { get, same, set, watch } from "../store.js";
 import { showError } from "../toasts.js";
 import { showMoment } from "../view3d.js";
 import { currentFrame, pause } from "./player.js";
@@ -10,9 +10,12 @@ export function startGrowthPlayer() {
   watch(["route", "model"], ({ route, model }) => {
     const wanted = route.growth && model?.id === route.id && model.status === "done" ? `${model.id} ${model.revision}` : null;
     if (wanted === loaded) return;
+    const isNewer = wanted !== null && loaded?.startsWith(`${model.id} `); // a name was given: the drive is the same
     loaded = wanted;
-    pause();
-    set({ timeline: null, stepIndex: 0, decision: null });
+    if (!isNewer) {
+      pause();
+      set({ timeline: null, stepIndex: 0, decision: null });
+    }
     if (wanted !== null) load(model.id, () => loaded === wanted);
   });
   watch(["route", "timeline", "stepIndex", "decision"], ({ route, stepIndex, decision }) => {
@@ -23,7 +26,9 @@ export function startGrowthPlayer() {
 async function load(model, stillWanted) {
   try {
     const timeline = await api.timeline(model);
-    if (stillWanted()) set({ timeline, stepIndex: firstOfInterest(timeline) });
+    if (!stillWanted()) return;
+    const { timeline: before, stepIndex } = get();
+    set({ timeline: same(before, timeline), stepIndex: before ? Math.max(0, Math.min(stepIndex, timeline.length - 1)) : firstOfInterest(timeline) });
   } catch (error) {
     if (stillWanted()) set({ timeline: [] });
     showError(error);

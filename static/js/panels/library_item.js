@@ -21,12 +21,13 @@ export function libraryItem({ kind, item, current, href, facts, state, redraw })
       const name = input.value.trim();
       input.blur();
       show();
-      redraw();
       if (keep && name && name !== item.name) await rename(kind, item, name);
     };
     input.addEventListener("keydown", (event) => {
-      if (event.key === "Enter") finish(true);
-      if (event.key === "Escape") finish(false);
+      if (event.key !== "Enter" && event.key !== "Escape") return;
+      finish(event.key === "Enter");
+      element.querySelector("a").focus();
+      redraw(); // the list waited while there was a name being typed in it
     });
     input.addEventListener("blur", () => finish(true));
     replace(element, input);

@@ -9,17 +9,20 @@ import { watch } from "../store.js";
 const WORDS = { mode: "Regions", regions: "Number asked", method: "Method", mapping: "Map", odometry: "Odometry", resolution: "Resolution" };
 
 export function modelFacts(root) {
+  const ways = h("div", { class: "model-ways" });
+  const about = h("div", {});
+  const details = h("details", { class: "advanced" }, h("summary", {}, "About this model"), about);
+  replace(root, ways, details);
   watch(["model", "models", "logs"], ({ model, models, logs }) => {
-    if (!model || model.status !== "done") {
-      replace(root);
-      return;
-    }
+    ways.hidden = details.hidden = !model || model.status !== "done";
+    if (details.hidden) return;
     const options = Object.entries(WORDS).filter(([key]) => model.options[key] !== undefined && model.options[key] !== null);
-    replace(root, model.log_ids.length > 0 && model.options.regions == null && model.options.mode !== "offline" && h("p", { class: "grew" },
+    replace(ways, model.log_ids.length > 0 && model.options.regions == null && model.options.mode !== "offline" && h("p", { class: "grew" },
       h("a", { class: "button", href: link.growth(model.id) }, icon("play"), "How it grew along the drive")),
     model.log_ids.length > 0 && h("p", { class: "grew" }, h("a", { class: "button", href: link.drift(model.id) }, icon("waves"), "Drift of the drive")),
-    beside(model, models ?? []),
-    h("details", { class: "advanced" }, h("summary", {}, "About this model"), h("dl", { class: "facts" },
+    beside(model, models ?? []));
+    const chosen = about.querySelector("select")?.value;
+    replace(about, h("dl", { class: "facts" },
       fact("Floor", `${model.area_m2.toFixed(0)} m², ${count(model.node_count, "region")}, ${count(model.room_count, "room")}`),
       fact("Made", when(model.created)),
       fact("Log", model.log_ids.length ? model.log_ids.map((id) => h("a", { href: link.log(id) }, logs?.find((log) => log.id === id)?.name ?? id)) : "an imported map"),
@@ -27,8 +30,7 @@ export function modelFacts(root) {
       fact("On disk", bytes(model.size_bytes)),
     ),
     h("p", {}, h("a", { class: "button", href: files.folder(model.id), download: "" }, "Download the model folder")),
-    model.log_ids.length > 0 && goOn(model, logs ?? []),
-    ));
+    model.log_ids.length > 0 && goOn(model, logs ?? [], chosen));
   });
 }
 
@@ -43,11 +45,11 @@ function beside(model, models) {
   return h("p", { class: "grew" }, choice);
 }
 
-/** Another log of the same drive makes the map larger. */
-function goOn(model, logs) {
+/** Another log of the same drive makes the map larger; `chosen` stays so when this is drawn again. */
+function goOn(model, logs, chosen) {
   const others = logs.filter((log) => !model.log_ids.includes(log.id));
   if (!others.length) return null;
-  const choice = h("select", { "aria-label": "Log" }, others.map((log) => h("option", { value: log.id }, log.name)));
+  const choice = h("select", { "aria-label": "Log" }, others.map((log) => h("option", { value: log.id, selected: log.id === chosen }, log.name)));
   return h("div", { class: "go-on" }, h("p", { class: "muted" }, "Go on with another log of the same drive:"), choice,
     h("button", { type: "button", class: "button", onclick: () => addLog(model, choice.value) }, "Make it again with both"));
 }

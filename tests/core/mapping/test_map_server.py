@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from core.errors import MapError
+from core.errors import MapError, TooLargeError
 from core.mapping import FREE, OCCUPIED, GridGeometry, OccupancyGrid
 from core.mapping.map_server import read_map, write_map
 
@@ -52,4 +52,20 @@ def test_a_negated_png_map_is_understood(tmp_path: Path) -> None:
 def test_a_broken_map_is_named(tmp_path: Path, yaml: str, complaint: str) -> None:
     (tmp_path / "m.yaml").write_text(yaml)
     with pytest.raises(MapError, match=complaint):
+        read_map(tmp_path / "m.yaml")
+
+
+def test_a_map_of_16_bits_without_white_keeps_its_unknown_cells(tmp_path: Path) -> None:
+    Image.fromarray(np.array([[254, 205, 0]], np.uint16) * 257).save(tmp_path / "m.png")
+    (tmp_path / "m.yaml").write_text("image: m.png\nresolution: 0.1\norigin: [0, 0, 0]\n")
+    assert read_map(tmp_path / "m.yaml").state.tolist() == [[FREE, 0, OCCUPIED]]
+
+
+def test_a_picture_that_is_far_too_large_is_told_what_to_do(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    Image.fromarray(np.zeros((1, 3), np.uint8)).save(tmp_path / "m.png")
+    (tmp_path / "m.yaml").write_text("image: m.png\nresolution: 0.1\norigin: [0, 0, 0]\n")
+    monkeypatch.setattr(Image, "MAX_IMAGE_PIXELS", 1)
+    with pytest.raises(TooLargeError, match="scale it down"):
         read_map(tmp_path / "m.yaml")
