@@ -7,9 +7,9 @@ from pathlib import Path
 
 from app.errors import NotFound
 from app.storage.model_files import Edit
-from core.topology.continuation import continued
+from core.topology.continuation import going_on
 from core.topology.labels import carried_labels, label_node, label_room, with_rooms
-from core.topology.model_folder import read_model, read_topology, store_labels
+from core.topology.model_folder import read_model, read_topology, store_edit, store_labels
 
 
 def node_label(node_id: str, label: str | None) -> Edit:
@@ -57,6 +57,5 @@ def carry_labels(earlier: Path, later: Path) -> None:
 
 
 def carry_identity(earlier: Path, later: Path) -> None:
-    """Gives a model that was made again the ids, names and rooms that it had, by overlap."""
-    old, new = read_model(earlier), read_model(later)
-    store_labels(continued(new.topology, new.regions, new.grid.geometry, old), later)
+    """Gives a model that was made again the ids, numbers, names and rooms that it had, by overlap."""
+    store_edit(going_on(read_model(later), read_model(earlier)), later)

@@ -31,7 +31,7 @@ from core.progress import Progress, no_progress, part_of
 from core.segmentation.connected import largest_component
 from core.sensing import RobotLog, Trajectory
 from core.topology import Model
-from core.topology.continuation import continued
+from core.topology.continuation import going_on
 from core.topology.labels import room_image
 from core.topology.topology_of import topology_of
 
@@ -207,24 +207,22 @@ def _model(
         next_number=found.next_number,
         came_from=found.came_from,
     )
-    if previous:
-        topology = continued(topology, found.regions, grid.geometry, previous)
     provenance |= {
         "options": asdict(options),
         "segmentation": found.parameters,
         "versions": _versions(),
     }
-    rooms = room_image(found.regions, topology)
-    return Model(
+    model = Model(
         grid,
         found.regions,
-        rooms,
+        room_image(found.regions, topology),
         topology,
         trajectory,
         provenance,
         found.history,
         found.timeline,
     )
+    return going_on(model, previous) if previous else model
 
 
 def _versions() -> dict[str, str]:

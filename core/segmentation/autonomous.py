@@ -153,7 +153,7 @@ def _summary(decisions: list[Decision]) -> str:
     """What came of the parts, in words."""
     if not decisions:
         return "the space that is left is one part, the robot is in it"
-    taken = [str(d.region) for d in decisions if d.accepted]
+    taken = [f"region {d.region}" for d in decisions if d.accepted]
     waiting = len(decisions) - len(taken)
     said = f"extracted {', '.join(taken)}" if taken else "nothing extracted"
     return f"{said}; {waiting} part{'s' * (waiting != 1)} not ready" if waiting else said

@@ -1,7 +1,7 @@
 """A model made again of the same home (a longer drive, better poses): who is who, by overlap.
 
-Every node that was there keeps its id and its name, wherever its region ends now; so do rooms and
-doorways. Ids that are gone are never given again. `came_from` says what a node was cut from or
+Every node that was there keeps its id, its number and its name, wherever its region ends now; so do
+rooms and doorways. Ids that are gone are never given again. `came_from` says what a node was cut from or
 joined of since the earlier model.
 """
 
@@ -14,14 +14,22 @@ import numpy as np
 
 from core.geometry import IntArray
 from core.mapping import GridGeometry
-from core.topology.labels import carried_labels, with_rooms
+from core.topology.labels import carried_labels, room_image, with_rooms
 from core.topology.model import Model
+from core.topology.renumbering import renumbered
 from core.topology.topological_map import Edge, Node, TopologicalMap
 
 LEAST_SHARE = 0.3
 """Share of the smaller of two regions that lies in the other one when they are taken for kin."""
 SAME_DOORWAY = 0.5
 """Metres by which a doorway may move between two models."""
+
+
+def going_on(model: Model, earlier: Model) -> Model:
+    """A model that was made again, with the ids, numbers, names and rooms of the earlier one."""
+    topology = continued(model.topology, model.regions, model.grid.geometry, earlier)
+    rooms = room_image(model.regions, topology)
+    return renumbered(replace(model, rooms=rooms, topology=topology), earlier.topology)
 
 
 def continued(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -44,4 +45,14 @@ def picture_on_map(png: bytes, moment: Mapping[str, Any], geometry: GridGeometry
     if not np.isfinite(offset).all() or not np.isclose(resolution, geometry.resolution):
         raise ModelError("history.jsonl: the picture of a step does not fit the map")
     column, row = np.rint(offset).astype(int)
-    return StepPicture.read(png).placed((int(row), int(column)), geometry.shape)
+    picture = _renumbered(StepPicture.read(png), place.get("numbers", {}))
+    return picture.placed((int(row), int(column)), geometry.shape)
+
+
+def _renumbered(picture: StepPicture, numbers: Mapping[str, int]) -> StepPicture:
+    """The picture with the numbers that its regions have now."""
+    table = np.arange(int(picture.regions.max(initial=0)) + 1)
+    for drawn, number in numbers.items():
+        if int(drawn) < len(table):
+            table[int(drawn)] = number
+    return replace(picture, regions=table[picture.regions])
