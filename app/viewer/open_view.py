@@ -11,7 +11,7 @@ import numpy as np
 import viser
 
 from app.live.session import LiveSession
-from app.viewer.camera import fit_3d
+from app.viewer.camera import View, fit_3d
 from app.viewer.drawing import draw, relabelled
 from app.viewer.live_feed import LiveFeed
 from app.viewer.messages import Hello, Labels, ModelChanged, ModelDeleted
@@ -43,9 +43,9 @@ class OpenView:
         self._stale = False
         self._refreshing = asyncio.Lock()
         self.server = PrivateViser()
-        self._scene = ModelScene(self.server, self._clicked)
+        self._scene = ModelScene(self.server)
         self._scene.draw(self.drawing)
-        self._place_first_camera()
+        self._first_view = self._place_first_camera()
         self.server.scene.on_click()(self._clicked)
         self.server.on_client_connect(self._client_connected)
         self.server.on_client_disconnect(self._client_gone)
@@ -59,6 +59,7 @@ class OpenView:
         self.last_used = time.monotonic()
         if token not in self.tabs:
             self.tabs[token] = Tab(token, self.feed.track if self.feed is not None else None)
+            self.tabs[token].camera.first = self._first_view
         return self.tabs[token]
 
     def hello(self, tab: Tab) -> Hello:
@@ -135,12 +136,13 @@ class OpenView:
             if not same or regrouped:
                 tab.tell(ModelChanged())
 
-    def _place_first_camera(self) -> None:
+    def _place_first_camera(self) -> View:
         """Where a browser looks before its tab's own camera is set."""
         view = fit_3d(self.drawing.outline, 1.4)
         first = self.server.initial_camera
         first.position, first.look_at = view.position, view.look_at
         first.fov = view.fov
+        return view
 
     def _client_connected(self, client: viser.ClientHandle) -> None:
         """Called by viser, in a thread of its own."""
@@ -153,7 +155,7 @@ class OpenView:
 
     def _clicked(
         self,
-        event: viser.SceneClickEvent | viser.SceneNodePointerEvent[viser.BatchedMeshHandle],
+        event: viser.SceneClickEvent,
     ) -> None:
         """Called by viser, in a thread of its own."""
         if event.ray_origin is not None and event.ray_direction is not None:

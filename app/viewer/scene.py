@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import cache
 
 import numpy as np
@@ -41,8 +41,6 @@ EDGE_WIDTH, STEM_WIDTH, PATH_WIDTH, DOOR_RADIUS = 0.055, 0.018, 0.045, 0.055
 GRID_LEVEL, REGION_LEVEL = -0.01, 0.01
 """Metres above the floor."""
 
-NodeClick = Callable[[viser.SceneNodePointerEvent[viser.BatchedMeshHandle]], None]
-
 
 def label_text(label: str | None, region: int) -> str:
     """What the 3D view calls a node: its label, or a stand-in until somebody gives one."""
@@ -58,10 +56,9 @@ def label_position(node: NodeMark) -> tuple[float, float, float]:
 class ModelScene:
     """The part of a view that all tabs share: one drawing in a server's scene."""
 
-    def __init__(self, server: viser.ViserServer, on_node_click: NodeClick) -> None:
+    def __init__(self, server: viser.ViserServer) -> None:
         self._server = server
         self._canvas = Canvas(server.scene)
-        self._on_node_click = on_node_click
         self._labels: dict[str, LabelHandle] = {}
         server.scene.configure_default_lights(enabled=False)
         server.scene.configure_environment_map(None)
@@ -152,8 +149,6 @@ class ModelScene:
             [node.colour for node in drawing.nodes],
         )
         self._keep(nodes, spheres)
-        if spheres is not None:
-            spheres.on_click(self._on_node_click)
 
     def _draw_labels(self, drawing: Drawing) -> None:
         for stale in range(len(drawing.nodes), len(self._labels)):

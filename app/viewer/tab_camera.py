@@ -36,6 +36,7 @@ class TabCamera:
     Attributes:
         standard: the standard view that was chosen last, "3d" or "top".
         kept: where a person has put the camera; None while it is in the standard view.
+        first: where a browser looks until it is told; it may take that view after it was told.
     """
 
     def __init__(
@@ -48,6 +49,7 @@ class TabCamera:
         height; `settled` hears where the camera stands."""
         self.standard = "3d"
         self.kept: View | None = None
+        self.first: View | None = None
         self._outline = outline
         self._aspect = aspect
         self._settled = settled
@@ -127,6 +129,8 @@ class TabCamera:
         """After the camera or the picture's size has changed: fits again, tells where it stands."""
         self._settle_due = None
         view = camera_view(scene.client)
+        if self._is_at_first(view):
+            view = self._send_again(scene)
         if self._aim is not None and self._is_on_its_way(view):
             self._fitted = self._aim
             self.kept = None
@@ -137,6 +141,18 @@ class TabCamera:
             self._fitted = None
             self.kept = view
         self._settled(view)
+
+    def _is_at_first(self, view: View) -> bool:
+        return self.first is not None and near(view, self.first)
+
+    def _send_again(self, scene: TabScene) -> View:
+        """Sends a browser that has just taken its own first view where it was to look; that view."""
+        if self.kept is None or self._is_at_first(self.kept):
+            self.kept = None
+            self._stand_at_standard(scene)
+        else:
+            scene.stand_at(self.kept, self._far(scene))
+        return camera_view(scene.client)
 
     def _is_on_its_way(self, view: View) -> bool:
         """Whether the camera is where it was sent, or was sent there only just now."""

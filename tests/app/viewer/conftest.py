@@ -185,18 +185,22 @@ class ViserClient:
                 self._receive(seconds)
         return self.seen[start:]
 
-    def send_camera(self) -> None:
-        """What makes viser count a connection as a client."""
+    def send_camera(
+        self,
+        position: tuple[float, float, float] = (0.0, 0.0, 10.0),
+        look_at: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    ) -> None:
+        """Where the camera stands; the first makes viser count a connection as a client."""
         self._send(
             type="ViewerCameraMessage",
             wxyz=(1.0, 0.0, 0.0, 0.0),
-            position=(0.0, 0.0, 10.0),
+            position=position,
             image_height=600,
             image_width=800,
             fov=1.0,
             near=0.01,
             far=1000.0,
-            look_at=(0.0, 0.0, 0.0),
+            look_at=look_at,
             up_direction=(0.0, 0.0, 1.0),
         )
 

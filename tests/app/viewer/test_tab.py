@@ -58,5 +58,27 @@ def test_the_camera_fits_the_picture_that_the_page_sees(server):
         view.wait_for(is_farther)
 
 
+def test_a_browser_that_takes_its_first_view_after_it_was_sent_elsewhere_is_sent_again(server):
+    with server.view("m1", ONE) as view:
+        first = view.wait_for(is_camera)["position"]
+        look = view.wait_for(lambda m: m["type"] == "SetCameraLookAtMessage")["look_at"]
+        view.drain()
+        sent = [m["position"] for m in view.seen if is_camera(m)][-1]
+        assert sent != pytest.approx(first)
+        view.send_camera(tuple(first), tuple(look))
+        again = [m["position"] for m in view.drain(1.0) if is_camera(m)]
+        assert again[-1] == pytest.approx(sent)
+        view.send_camera((3.0, 3.0, 3.0))
+        assert not [m for m in view.drain(1.0) if is_camera(m)]
+
+
+def test_a_click_on_a_node_is_one_click(server):
+    with server.view("m1", ONE) as view:
+        view.wait_for(lambda m: m.get("name") == "/graph/nodes")
+        view.drain()
+        listens = [m for m in view.seen if m["type"] == "SetSceneNodeClickBindingsMessage"]
+        assert not listens, "the scene tells of every click already"
+
+
 def lift(message) -> float:
     return float(np.linalg.norm(message["position"]))
