@@ -10,6 +10,7 @@ from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validat
 from app.jobs.runner import JobView
 from app.storage.records import CalibrationRecord, LogRecord, ModelRecord, Status
 from core.mapping.odometry_calibration import OdometryCalibration
+from core.wording import is_printable
 
 MAX_LABEL_LENGTH = 80
 MAX_NAME_LENGTH = 200
@@ -18,7 +19,7 @@ PAPER_NEEDS_REGIONS = "the paper's offline method needs the number of regions: g
 
 
 def _printable(text: str) -> str:
-    if not text.isprintable():
+    if not is_printable(text):
         raise ValueError("must not hold control characters")
     return text
 

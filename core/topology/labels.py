@@ -15,6 +15,7 @@ from core.errors import InputError
 from core.geometry import IntArray
 from core.mapping import GridGeometry
 from core.topology.topological_map import Node, Room, TopologicalMap
+from core.wording import is_printable
 
 MAX_LABEL = 80
 """Characters of the longest label."""
@@ -33,7 +34,7 @@ def clean_label(label: str | None) -> str | None:
         return None
     if len(text) > MAX_LABEL:
         raise InputError(f"a label has at most {MAX_LABEL} characters, this one has {len(text)}")
-    if not text.isprintable():
+    if not is_printable(text):
         raise InputError("a label must not hold control characters or line breaks")
     return text
 

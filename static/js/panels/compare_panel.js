@@ -1,13 +1,14 @@
 // The right column while two models are shown side by side: which nodes are the same, what differs.
 import { h, icon, replace } from "../dom.js";
 import { api } from "../api.js";
-import { area, metres, nodeName, percent } from "../format.js";
+import { area, count, metres, nodeName, percent } from "../format.js";
 import { go, link } from "../router.js";
 import { selectBeside } from "../second_view.js";
 import { get, set, watch } from "../store.js";
 import { showError, toast } from "../toasts.js";
 import { select } from "../view3d.js";
 
+const OPTIONS = "options."; // what a person chose
 const SAME = 0.9; // overlap from which on two nodes are called the same
 
 export function comparePanel(root) {
@@ -76,10 +77,27 @@ function found({ comparison, model, colours, otherColours }) {
       comparison.nodes.map((pair) => pairItem(pair, model, other, colours, otherColours)),
       comparison.only_here.map((id) => alone(id, model, colours, "only on the left", () => select(id))),
       comparison.only_there.map((id) => alone(id, other, otherColours, "only on the right", () => selectBeside(id))))),
-    h("section", {}, h("h2", {}, "Parameters that differ"), comparison.parameters.length
-      ? h("dl", { class: "facts parameters" }, comparison.parameters.map(({ name, value, other_value: theirs }) => [h("dt", {}, name), h("dd", {}, `${told(value)} → ${told(theirs)}`)]))
-      : h("p", { class: "nothing" }, "None: both were made with the same parameters.")),
+    h("section", {}, h("h2", {}, "Parameters that differ"), parameters(comparison.parameters)),
   ];
+}
+
+/** Those that both have first; those of a method that only one was made with are many. */
+function parameters(differing) {
+  if (!differing.length) return h("p", { class: "nothing" }, "None: both were made with the same parameters.");
+  const isGiven = (value) => value !== null && value !== undefined;
+  const own = differing.filter(({ value, other_value: theirs }) => !isGiven(value) || !isGiven(theirs));
+  const choices = own.filter(({ name }) => name.startsWith(OPTIONS));
+  const others = own.filter((parameter) => !choices.includes(parameter));
+  return [
+    listed(differing.filter((parameter) => !own.includes(parameter)).concat(choices)),
+    others.length > 0 && h("details", { class: "advanced" }, h("summary", {}, `Only one of them has: ${count(others.length, "parameter")}`), listed(others)),
+  ];
+}
+
+function listed(some) {
+  return h("dl", { class: "facts parameters" }, some.map(({ name, value, other_value: theirs }) => [
+    h("dt", {}, name.split(".").map((part, index) => (index ? [".", h("wbr"), part] : part))), h("dd", {}, `${told(value)} →\u00a0${told(theirs)}`),
+  ]));
 }
 
 function pairItem(pair, model, other, colours, otherColours) {
