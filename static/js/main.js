@@ -57,6 +57,7 @@ onView({
   },
 });
 
+const showsRooms = ({ growth, drift, compare, localization }) => !(growth || drift || compare || localization);
 const toggleSide = (side) => () => document.body.classList.toggle(`hide-${side}`);
 shortcut("/", "search models and logs", () => byId("search").focus());
 shortcut("u", "upload files", chooseFiles);
@@ -65,7 +66,7 @@ shortcut("2", "top view", () => moveCamera("top"));
 shortcut("f", "show everything", () => moveCamera("fit"));
 shortcut("m", "measure a distance", () => measure(!get().measuring));
 shortcut("r", "rename the selected room", renameSelected);
-shortcut("s", "split the selected room", () => get().selected && startCut(get().selected));
+shortcut("s", "split the selected room", () => get().selected && showsRooms(get().route) && startCut(get().selected));
 shortcut("Ctrl+z", "undo the last edit", () => undo());
 shortcut("Ctrl+Shift+z", "redo it", redo);
 shortcut(" ", "play or pause a localization or how a model grew", () => isOpen() && playPause());

@@ -43,6 +43,13 @@ async (name) => {
   set({ connection: "ready", cutting: name, selected: name, measured });
 }
 """
+LOOK_BACK = """
+async () => {
+  const { get, set } = await import("./js/store.js");
+  set({ route: { ...get().route, growth: true } });
+}
+"""
+CUTTING = """async () => (await import("./js/store.js")).get().cutting"""
 
 
 @pytest.fixture
@@ -106,3 +113,12 @@ def test_the_log_to_go_on_with_stays_chosen(page):
     expect(page.get_by_label("Log", exact=True).last.locator("option")).to_have_count(3)
     expect(page.get_by_label("Log", exact=True).last).to_have_value("b")
     expect(page.get_by_label("Log", exact=True).last).to_be_visible()
+
+
+def test_nothing_is_split_while_the_regions_are_not_on_the_page(page):
+    page.locator("tr[data-node=n2] .swatch").click()
+    page.evaluate(LOOK_BACK)
+    page.keyboard.press("s")
+    page.keyboard.press("/")
+    expect(page.locator("#search")).to_be_focused()
+    assert page.evaluate(CUTTING) is None

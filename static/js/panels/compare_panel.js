@@ -116,7 +116,7 @@ function pairItem(pair, model, other, colours, otherColours) {
 function alone(id, model, colours, words, onclick) {
   const node = model.nodes.find((item) => item.id === id);
   return node && h("li", {}, h("button", { type: "button", class: "pair", onclick }, swatch(colours[id]),
-    h("span", { class: "bar-name" }, nodeName(node)), h("span", { class: "pair-change" }, words)));
+    h("span", { class: "bar-name pair-alone" }, nodeName(node)), h("span", { class: "pair-change" }, words)));
 }
 
 function swatch(colour) {
