@@ -34,6 +34,8 @@ FURNITURE_SIDE: Colour = (158, 166, 184)
 EDGES: Mapping[str, Colour] = {"light": (52, 62, 98), "dark": (196, 208, 236)}
 STEMS: Mapping[str, Colour] = {"light": (150, 158, 178), "dark": (110, 120, 144)}
 """Colours of the graph's lines in each theme."""
+MOST_SHOWN = 30
+"""Characters of a label in the picture; a longer one would lie across half the home."""
 LABEL_GAP = 0.12
 """Metres between a node's sphere and its label."""
 EDGE_WIDTH, STEM_WIDTH, PATH_WIDTH, DOOR_RADIUS = 0.055, 0.018, 0.045, 0.055
@@ -43,8 +45,10 @@ GRID_LEVEL, REGION_LEVEL = -0.01, 0.01
 
 
 def label_text(label: str | None, region: int) -> str:
-    """What the 3D view calls a node: its label, or a stand-in until somebody gives one."""
-    return label if label else f"Region {region}"
+    """What the 3D view calls a node: its label, cut where it is long, or a stand-in without one."""
+    if not label:
+        return f"Region {region}"
+    return label if len(label) <= MOST_SHOWN else f"{label[: MOST_SHOWN - 1].rstrip()}…"
 
 
 def label_position(node: NodeMark) -> tuple[float, float, float]:

@@ -80,5 +80,11 @@ def test_a_click_on_a_node_is_one_click(server):
         assert not listens, "the scene tells of every click already"
 
 
+def test_a_long_name_is_cut_in_the_picture(server, shows_label):
+    with server.view("m1", ONE) as view:
+        server.rename("m1", "west", "the room with the piano and the old sofa")
+        view.wait_for(shows_label("the room with the piano and t…"))
+
+
 def lift(message) -> float:
     return float(np.linalg.norm(message["position"]))
