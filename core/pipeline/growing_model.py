@@ -23,11 +23,9 @@ from core.progress import Progress, no_progress
 from core.segmentation.autonomous import AutonomousConfig, extract, finish
 from core.segmentation.extraction_state import ExtractionState
 from core.segmentation.moment import Moment
-from core.segmentation.paper_extraction import (
-    PaperConfig,
-    extract_as_in_paper,
-    finish_as_in_paper,
-)
+from core.segmentation.paper_config import PaperConfig
+from core.segmentation.paper_end import finish_as_in_paper
+from core.segmentation.paper_extraction import extract_as_in_paper
 from core.sensing import RobotLog, Scan, SonarRing, Trajectory
 
 MethodName = Literal["default", "paper"]

@@ -18,7 +18,7 @@ from core.progress import Progress, no_progress, part_of
 from core.segmentation.automatic import AutomaticConfig, segment_automatically
 from core.segmentation.latest_regions import region_image
 from core.segmentation.offline import OfflineConfig, segment_offline
-from core.segmentation.paper_extraction import PaperConfig
+from core.segmentation.paper_config import PaperConfig
 from core.sensing import RobotLog, Trajectory
 from core.topology.rooms import suggested_rooms
 

@@ -80,12 +80,15 @@ def connect_regions(regions: IntArray) -> IntArray:
             pieces += [labels == i for i in range(1, count + 1) if i != keep]
     for piece in pieces:
         out[piece] = 0
-    return _give_to_neighbours(out, sorted(pieces, key=lambda piece: -int(piece.sum())))
+    return given_to_neighbours(out, sorted(pieces, key=lambda piece: -int(piece.sum())))
 
 
-def _give_to_neighbours(regions: IntArray, pieces: list[BoolArray]) -> IntArray:
-    """Gives each piece to the region with the longest border; pieces without any wait or vanish."""
-    waiting = pieces
+def given_to_neighbours(regions: IntArray, pieces: list[BoolArray]) -> IntArray:
+    """The regions with each piece in the one with the longest border to it.
+
+    Pieces that touch none wait for their neighbours; those that never touch one have no region.
+    """
+    regions, waiting = regions.copy(), pieces
     while waiting:
         left = []
         for piece in waiting:

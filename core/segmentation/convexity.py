@@ -21,15 +21,28 @@ class ConvexityConfig:
             thick, a whole house scores 0.1 and nothing is ever cut. "not_free": unknown grids
             count too, which is what lies behind a wall; this works.
         threshold: c_t.
-        factor: of the second condition; 0.5 as printed (1-3 regions), 0.7 gives about 10 a home.
+        narrow: longest border between two clusters that is a narrow place, in square roots of the
+            smaller one's area; None as printed: none is. Furniture in a room counts before and
+            after a cut at its door, but a cut across the room halves what counts: with one factor
+            for both, rooms are cut up (twelve simulated homes: purity .92, adjusted Rand index
+            .47; with two .92 and .56).
+        factor: of the second condition; 0.5 as printed. Cuts of furnished rooms reach 0.4.
+        narrow_factor: the same at a narrow place.
     """
 
     counted: Literal["occupied", "not_free"] = "not_free"
     threshold: float = 0.2
-    factor: float = 0.7
+    narrow: float | None = 0.65
+    factor: float = 0.3
+    narrow_factor: float = 0.9
+
+    def factor_at(self, border: float) -> float:
+        """The factor of the second condition at a border as long as this."""
+        is_narrow = self.narrow is not None and border <= self.narrow
+        return self.narrow_factor if is_narrow else self.factor
 
 
-PRINTED = ConvexityConfig("occupied", 0.2, 0.5)
+PRINTED = ConvexityConfig("occupied", threshold=0.2, narrow=None, factor=0.5)
 """Eq. (7)-(9) as they are printed."""
 
 
@@ -60,7 +73,9 @@ def convexity(
     return blocked / size if size else 0.0
 
 
-def is_to_be_cut(one: float, two: float, config: ConvexityConfig | None = None) -> bool:
-    """Eq. (9)."""
+def is_to_be_cut(
+    one: float, two: float, border: float, config: ConvexityConfig | None = None
+) -> bool:
+    """Eq. (9) for two clusters with a border of this length (in roots of the smaller one's area)."""
     config = config or ConvexityConfig()
-    return one > config.threshold and two < config.factor * one
+    return one > config.threshold and two < config.factor_at(border) * one

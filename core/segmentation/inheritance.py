@@ -30,6 +30,46 @@ def reopened(
     return replace(state, regions=regions), f"the robot is back in region {here}; "
 
 
+def opened_inside(
+    state: ExtractionState, geometry: GridGeometry, robot: IntArray, least: float
+) -> tuple[ExtractionState, str]:
+    """The state in which no region is open but the one that the robot is in, and that in words.
+
+    Regions that are left with less than `least` grids are given up.
+    """
+    here = int(painted(state.regions, geometry)[tuple(robot)])
+    was_closed = any(r.number == here and not r.is_open for r in state.regions)
+    others = all_closed(replace(state, regions=_but(state, here)), least).regions
+    inside = tuple(replace(r, is_open=True) for r in state.regions if r.number == here)
+    said = f"the robot is back in region {here}; " if was_closed else ""
+    return replace(state, regions=(*others, *inside)), said
+
+
+def all_closed(state: ExtractionState, least: float) -> ExtractionState:
+    """The state with open regions of at least so many grids closed and smaller ones given up."""
+    kept = (r for r in state.regions if not r.is_open or len(r.cells) >= least)
+    return replace(state, regions=tuple(replace(r, is_open=False) for r in kept))
+
+
+def taken_in(
+    state: ExtractionState, mask: BoolArray, geometry: GridGeometry, robot: IntArray
+) -> ExtractionState:
+    """The state in which the open region that the robot is in covers a mask, and nothing else."""
+    here = int(painted(state.regions, geometry)[tuple(robot)])
+    inside = next((r for r in state.regions if r.number == here and r.is_open), None)
+    if inside is None:
+        return state
+    cells = np.argwhere(mask) + lattice_corner(geometry)
+    others = tuple(_without(region, cells) for region in _but(state, here))
+    others = tuple(region for region in others if len(region.cells))
+    return replace(state, regions=(*others, replace(inside, cells=cells)))
+
+
+def _but(state: ExtractionState, number: int) -> tuple[ExtractedRegion, ...]:
+    """All regions but one."""
+    return tuple(region for region in state.regions if region.number != number)
+
+
 def with_region(
     state: ExtractionState,
     mask: BoolArray,

@@ -23,11 +23,9 @@ from core.segmentation.convexity import PRINTED
 from core.segmentation.extraction_state import ExtractionState, painted
 from core.segmentation.hidden_pairs import hidden_pairs
 from core.segmentation.moment import Moment
-from core.segmentation.paper_extraction import (
-    PaperConfig,
-    extract_as_in_paper,
-    finish_as_in_paper,
-)
+from core.segmentation.paper_config import PaperConfig
+from core.segmentation.paper_end import finish_as_in_paper
+from core.segmentation.paper_extraction import extract_as_in_paper
 from core.sensing import Trajectory
 
 RESOLUTION, BLOCK = 0.05, 5
