@@ -31,7 +31,8 @@ class PaperConfig:
             region (.90, .61, three regions in one of 16 drives through the paper's home).
             "while_inside": only as long as the robot is in it; what is convex with it joins it.
         at_end: of the space that is left when the drive ends. "pieces": every connected piece is a
-            region (.92, .56, mean hidden pairs .14 instead of .13). "cut": the pieces are cut on, by the same conditions.
+            region (.92, .56, but .14 instead of .13 hidden pairs). "cut": the pieces are cut on, by
+            the same conditions.
         least_area: square metres of a cluster; the paper tells of none. With 2 m2 purity is .94
             and ARI .53.
         max_cell: largest quadtree cell in grids.

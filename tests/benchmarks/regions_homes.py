@@ -103,9 +103,7 @@ def own_home(
     return rows(name, log, truth, log.truth, odometry, methods)
 
 
-def shared_home(
-    folder: str, name: str, odometry: OdometryChoice, methods: list[str]
-) -> list[Row]:
+def shared_home(folder: str, name: str, odometry: OdometryChoice, methods: list[str]) -> list[Row]:
     """A home of the independent simulator."""
     stored = np.load(Path(folder) / "truth" / f"{name}.npz", allow_pickle=False)
     meta = json.loads(str(stored["meta"]))
