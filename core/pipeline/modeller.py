@@ -38,6 +38,7 @@ from core.topology.topology_of import topology_of
 Mode = Literal["autonomous", "offline"]
 DRIFT_SHARE, MAPPING_SHARE, CUTTING_SHARE = 0.35, 0.45, 0.95
 """Shares of the time after which trajectory, map and regions are there, for the progress."""
+PAPER_NEEDS_NUMBER = "the paper's offline method needs the number of regions: give one"
 SMALLEST_PART = 1.0
 """Square metres of a separate part of an imported map that is modelled."""
 
@@ -77,7 +78,7 @@ class ModellingOptions:
         if self.regions is not None and self.regions < 1:
             raise InputError(f"{self.regions} regions cannot be made: choose a number from 1")
         if self.method == "paper" and self.mode == "offline" and self.regions is None:
-            raise UsageError("the paper's offline method needs the number of regions: give one")
+            raise UsageError(PAPER_NEEDS_NUMBER)
         MappingOptions(self.mapping, self.resolution)
 
 
@@ -170,12 +171,14 @@ def model_map(
     """Models a home from a map that another program made (offline, 3.1).
 
     Raises:
-        UsageError: autonomous modelling, which needs a drive.
+        UsageError: autonomous modelling, which needs a drive; the paper's method without a number.
         InputError: the map cannot be modelled so.
     """
     options = options or ModellingOptions(mode="offline")
     if options.mode == "autonomous":
         raise UsageError("autonomous modelling needs a log: a map tells nothing of the drive")
+    if options.method == "paper" and options.regions is None:
+        raise UsageError(PAPER_NEEDS_NUMBER)
     if not grid.free.any():
         raise MapError("the map has no free space to divide")
     cutting = part_of(progress, 0.0, CUTTING_SHARE)

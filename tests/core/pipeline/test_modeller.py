@@ -46,6 +46,12 @@ def test_autonomous_from_a_map_cannot_be(square_room: RobotLog) -> None:
         model_map(grid, ModellingOptions(mode="autonomous"))
 
 
+def test_a_map_by_the_papers_method_needs_the_number_of_regions(square_room: RobotLog) -> None:
+    grid = map_log(square_room, Trajectory.from_odometry(square_room)).grid
+    with pytest.raises(UsageError, match="number of regions"):
+        model_map(grid, ModellingOptions(method="paper"))
+
+
 def test_a_map_without_a_drive_is_modelled_too(square_room: RobotLog) -> None:
     grid = map_log(square_room, Trajectory.from_odometry(square_room)).grid
     model = model_map(grid, ModellingOptions(mode="offline", regions=2))
