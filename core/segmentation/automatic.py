@@ -1,7 +1,8 @@
 """Offline segmentation of any map, the number of regions found: rooms first, then convex nodes.
 
-Rooms are draft cells merged while the border between them is less likely that of two rooms than of
-one (`merging.py`, `boundary_model.py`). Each room is then cut by normalized cuts until every part
+Draft cells merge across the border that is least likely one of two rooms (`merging.py`,
+`boundary_model.py`) until all is one; rooms are those regions on the way that make the best rooms
+together (`merge_tree.py`, `room_model.py`). Each room is then cut by normalized cuts until every part
 is convex in the sense of hidden pairs (`convex_split.py`). So a room is a union of regions by
 construction, and what counts as a doorway is judged once for both.
 """
@@ -25,7 +26,9 @@ from core.segmentation.convex_split import ConvexSplitConfig, split_until_convex
 from core.segmentation.draft_cells import DraftConfig, clearance_of, draft_cells
 from core.segmentation.main_axis import main_axis
 from core.segmentation.map_character import map_character
-from core.segmentation.merging import RegionGraph, merge
+from core.segmentation.merge_tree import merge_tree
+from core.segmentation.merging import RegionGraph, judged
+from core.segmentation.room_model import RoomModel, stored_room_model
 from core.segmentation.uncluttered import ClutterConfig, uncluttered
 
 BARE = ClutterConfig(largest_obstacle=1.5, least_floor=0.0)
@@ -33,17 +36,33 @@ BARE = ClutterConfig(largest_obstacle=1.5, least_floor=0.0)
 ROOMS_SHARE = 0.7
 """Share of the time that goes into the rooms, for the progress."""
 
+BETTER_APART = (
+    "likely the border of two rooms",
+    "an unlikely border, but both sides make better rooms than they would make together",
+)
+
+
+@dataclass(frozen=True)
+class RoomJudges:
+    """What was learned about rooms: the border model and the room model."""
+
+    border: BoundaryModel
+    room: RoomModel
+
+
+def stored_judges() -> RoomJudges:
+    """Those that come with the program."""
+    return RoomJudges(stored_boundary_model(), stored_room_model())
+
 
 @dataclass(frozen=True)
 class AutomaticConfig:
     """Parameters of automatic segmentation.
 
     Attributes:
-        least_log_odds: that a border needs to part two rooms; 0: more likely than not.
         clutter, draft, convex: of the stages.
     """
 
-    least_log_odds: float = 0.0
     clutter: ClutterConfig = field(default_factory=ClutterConfig)
     draft: DraftConfig = field(default_factory=DraftConfig)
     convex: ConvexSplitConfig = field(default_factory=ConvexSplitConfig)
@@ -69,7 +88,7 @@ def segment_automatically(
     config: AutomaticConfig | None = None,
     seed: int = 0,
     progress: Progress = no_progress,
-    model: BoundaryModel | None = None,
+    judges: RoomJudges | None = None,
 ) -> Segmentation:
     """Finds regions and rooms of a map.
 
@@ -78,7 +97,7 @@ def segment_automatically(
         config: parameters.
         seed: of the drawn pairs of points.
         progress: told all along.
-        model: judges borders; by default the one that comes with the program.
+        judges: of borders and rooms; by default those that come with the program.
 
     Raises:
         MapError: there is no free space.
@@ -91,7 +110,7 @@ def segment_automatically(
     history: list[dict[str, Any]] = []
     draft = draft_of(grid.free, grid.occupied, resolution, config.draft, config.clutter)
     floor = draft[1].floor
-    rooms = _rooms(*draft, model or stored_boundary_model(), config, history)
+    rooms = _rooms(*draft, judges or stored_judges(), history)
     del draft  # the largest images of a large map
     regions = _nodes(
         rooms, floor, resolution, config.convex, history, seed, part_of(progress, ROOMS_SHARE, 1.0)
@@ -121,21 +140,20 @@ def draft_of(
 
 
 def _rooms(
-    cells: IntArray,
-    around: Surroundings,
-    model: BoundaryModel,
-    config: AutomaticConfig,
-    history: list[dict[str, Any]],
+    cells: IntArray, around: Surroundings, judges: RoomJudges, history: list[dict[str, Any]]
 ) -> IntArray:
     """Label image of the rooms."""
-    graph = RegionGraph(cells, around)
 
     def judge(_: list[tuple[int, int]], features: FloatArray) -> FloatArray:
-        return model.log_odds(features)
+        return judges.border.log_odds(features)
 
-    stayed = merge(graph, judge, config.least_log_odds)
-    for (a, b), odds in sorted(stayed.items()):
-        border = graph.borders[a][b]
+    rooms = RegionGraph(cells, around)
+    judged(rooms, rooms.pairs(), judge)
+    tree = merge_tree(rooms.copy(), judge)
+    for kept, gone in tree.mergers(tree.best(judges.room.worth(tree.features))):
+        rooms.join(kept, gone)
+    for odds, (a, b) in judged(rooms, rooms.pairs(), judge):
+        border = rooms.borders[a][b]
         history.append(
             {
                 "event": "room border",
@@ -143,10 +161,10 @@ def _rooms(
                 "width_m": round(border.shape.length, 2),
                 "log_odds": round(odds, 2),
                 "accepted": True,
-                "reason": "likely the border of two rooms",
+                "reason": BETTER_APART[odds < 0],
             }
         )
-    return np.asarray(graph.parent[cells])
+    return np.asarray(rooms.parent[cells])
 
 
 def _nodes(

@@ -1,10 +1,12 @@
-"""Merging draft cells into rooms: the border that is least likely a real one goes first."""
+"""Merging regions: the border that is least likely a real one goes first."""
 
 from __future__ import annotations
 
 import heapq
 from collections.abc import Callable
+from copy import copy
 from dataclasses import dataclass
+from math import nan
 
 import numpy as np
 
@@ -21,33 +23,48 @@ from core.segmentation.boundary_shape import BoundaryShape, Surroundings, bounda
 
 Judge = Callable[[list[Pair], FloatArray], FloatArray]
 """Log-odds (n,) that the borders of n pairs with these features (n, f) are real."""
-Merged = Callable[[int, int], None]
-"""Told `(kept, gone)` at each merger."""
+Merged = Callable[[int, int, float], None]
+"""Told `(kept, gone, log-odds of their border)` after each merger."""
 
 
 @dataclass
-class _Border:
-    """A border: its points (n, 2) and what is around it."""
+class Border:
+    """A border.
+
+    Attributes:
+        points: (n, 2) middles `[row, col]` between the cells of both sides.
+        shape: what is around it.
+        log_odds: that it is real, as judged last.
+    """
 
     points: FloatArray
     shape: BoundaryShape
+    log_odds: float = nan
 
 
 class RegionGraph:
     """Regions and their borders while they merge; built once, merged by `merge`."""
 
     def __init__(self, cells: IntArray, around: Surroundings) -> None:
-        self._around = around
+        self.around = around
         self.shapes: dict[int, RegionShape] = region_shapes(
             cells, around.clearance, around.bare, around.resolution
         )
         self.parent = np.arange(int(cells.max(initial=0)) + 1)
-        self.borders: dict[int, dict[int, _Border]] = {value: {} for value in self.shapes}
+        self.borders: dict[int, dict[int, Border]] = {value: {} for value in self.shapes}
         self._walls: dict[int, dict[int, float]] = {value: {} for value in self.shapes}
         for (a, b), points in boundary_points(cells).items():
             self.borders[a][b] = self.borders[b][a] = self._border(points)
         for (a, b), length in common_walls(cells, around.resolution).items():
             self._walls[a][b] = self._walls[b][a] = length
+
+    def copy(self) -> RegionGraph:
+        """The same graph, to be merged on its own."""
+        twin = copy(self)
+        twin.shapes, twin.parent = dict(self.shapes), self.parent.copy()
+        twin.borders = {value: dict(others) for value, others in self.borders.items()}
+        twin._walls = {value: dict(others) for value, others in self._walls.items()}
+        return twin
 
     def pairs(self) -> list[Pair]:
         """All pairs of regions that touch, in order."""
@@ -64,13 +81,13 @@ class RegionGraph:
             len(border.points),
             border.shape,
             self._walls[a].get(b, 0.0),
-            self._around.character,
-            self._around.resolution,
+            self.around.character,
+            self.around.resolution,
         )
 
     def outline(self, region: int) -> RegionOutline:
         """What bounds a region."""
-        borders, resolution = self.borders[region], self._around.resolution
+        borders, resolution = self.borders[region], self.around.resolution
         return RegionOutline(
             sum(len(border.points) for border in borders.values()) * resolution,
             sum(self._walls[region].values()),
@@ -80,7 +97,7 @@ class RegionGraph:
     def join(self, kept: int, gone: int) -> list[Pair]:
         """Makes two regions one; returns the pairs whose border has changed."""
         self.parent[self.parent == gone] = kept
-        self.shapes[kept] = self.shapes[kept].joined(self.shapes.pop(gone), self._around.resolution)
+        self.shapes[kept] = self.shapes[kept].joined(self.shapes.pop(gone), self.around.resolution)
         for other, border in self.borders.pop(gone).items():
             del self.borders[other][gone]
             if other == kept:
@@ -96,47 +113,40 @@ class RegionGraph:
                 self._walls[kept][other] = self._walls[other][kept] = length
         return [(min(kept, other), max(kept, other)) for other in self.borders[kept]]
 
-    def _border(self, points: FloatArray) -> _Border:
-        return _Border(points, boundary_shape(points, self._around))
+    def _border(self, points: FloatArray) -> Border:
+        return Border(points, boundary_shape(points, self.around))
 
 
-def merge(
-    graph: RegionGraph, judge: Judge, least: float, merged: Merged | None = None
-) -> dict[Pair, float]:
-    """Merges until every border that is left is real.
+def merge(graph: RegionGraph, judge: Judge, least: float, merged: Merged | None = None) -> None:
+    """Merges until every border that is left is real; `graph.borders` tells how likely each is.
 
     Args:
-        graph: changed in place; `graph.parent` tells the region of each draft cell afterwards.
+        graph: changed in place; its borders have been judged. `graph.parent` tells the region of
+            each draft cell afterwards.
         judge: log-odds of borders.
-        least: log-odds that a border needs to stay.
+        least: log-odds that a border needs to stay; infinite merges all that touch.
         merged: told of every merger.
-
-    Returns:
-        Log-odds of the borders that stayed.
     """
-    odds = _judged(graph, graph.pairs(), judge)
-    waiting = [(value, pair) for pair, value in odds.items()]
+    waiting = [(graph.borders[a][b].log_odds, (a, b)) for a, b in graph.pairs()]
     heapq.heapify(waiting)
     while waiting:
-        value, pair = heapq.heappop(waiting)
-        if odds.get(pair) != value:
+        value, (kept, gone) = heapq.heappop(waiting)
+        border = graph.borders.get(kept, {}).get(gone)
+        if border is None or border.log_odds != value:
             continue  # judged again since, or gone
         if value >= least:
             break
-        kept, gone = pair
-        for other in graph.borders[gone]:
-            del odds[min(gone, other), max(gone, other)]
+        for changed in judged(graph, graph.join(kept, gone), judge):
+            heapq.heappush(waiting, changed)
         if merged is not None:
-            merged(kept, gone)
-        fresh = _judged(graph, graph.join(kept, gone), judge)
-        odds |= fresh
-        for again, value in fresh.items():
-            heapq.heappush(waiting, (value, again))
-    return odds
+            merged(kept, gone, value)
 
 
-def _judged(graph: RegionGraph, pairs: list[Pair], judge: Judge) -> dict[Pair, float]:
+def judged(graph: RegionGraph, pairs: list[Pair], judge: Judge) -> list[tuple[float, Pair]]:
+    """Judges borders; the log-odds of each, which its border keeps."""
     if not pairs:
-        return {}
+        return []
     values = judge(pairs, np.array([graph.features(pair) for pair in pairs]))
-    return {pair: float(value) for pair, value in zip(pairs, values, strict=True)}
+    for (a, b), value in zip(pairs, values, strict=True):
+        graph.borders[a][b].log_odds = float(value)
+    return [(float(value), pair) for value, pair in zip(values, pairs, strict=True)]

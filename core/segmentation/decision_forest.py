@@ -1,0 +1,76 @@
+"""A forest of decision trees that was fitted elsewhere and is only asked here."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import as_file, files
+from pathlib import Path
+
+import numba
+import numpy as np
+
+from core.geometry import FloatArray, IntArray
+
+
+@dataclass(frozen=True)
+class DecisionForest:
+    """Trees in one table of knots; at a split, the knot after it is where small values go on.
+
+    Attributes:
+        root: (t,) knot at which each tree begins.
+        feature: (k,) feature that a knot asks for, -1 at a leaf.
+        threshold: (k,) up to which one goes on to the next knot, beyond to `high`; the answer at a
+            leaf.
+        high: (k,) the other way on.
+    """
+
+    root: IntArray
+    feature: IntArray
+    threshold: FloatArray
+    high: IntArray
+
+    def mean(self, features: FloatArray) -> FloatArray:
+        """The trees' mean answer (n,) to features (n, f)."""
+        asked = np.ascontiguousarray(features, float)
+        return np.asarray(_mean(asked, self.root, self.feature, self.threshold, self.high))
+
+    def write(self, path: Path) -> None:
+        """Stores the forest in a file of a few bytes a knot."""
+        np.savez_compressed(
+            path,
+            root=self.root.astype(np.int32),
+            feature=self.feature.astype(np.int8),
+            threshold=self.threshold.astype(np.float32),
+            ahead=np.where(self.feature < 0, 0, self.high - np.arange(len(self.high))).astype(
+                np.int32
+            ),
+        )
+
+
+@cache
+def stored_forest(name: str) -> DecisionForest:
+    """A forest that comes with the program, by the name of its file."""
+    with (
+        as_file(files("core.segmentation").joinpath(name)) as path,
+        np.load(path, allow_pickle=False) as stored,
+    ):
+        ahead = stored["ahead"].astype(np.int64)
+        return DecisionForest(
+            stored["root"].astype(np.int64),
+            stored["feature"].astype(np.int64),
+            stored["threshold"].astype(np.float64),
+            ahead + np.arange(len(ahead)),
+        )
+
+
+@numba.njit(cache=True)
+def _mean(features, root, feature, threshold, high):  # type: ignore[no-untyped-def]
+    out = np.zeros(len(features))
+    for i in range(len(features)):
+        for knot in root:
+            while feature[knot] >= 0:
+                low = features[i, feature[knot]] <= threshold[knot]
+                knot = knot + 1 if low else high[knot]
+            out[i] += threshold[knot]
+    return out / len(root)
