@@ -15,7 +15,7 @@ from core.pipeline.floor import floor_of_drive, restricted
 from core.pipeline.growing_model import METHODS, GrowingModel, MethodName, grown_along
 from core.pipeline.mapper import MappingOptions
 from core.progress import Progress, no_progress, part_of
-from core.segmentation.automatic import AutomaticConfig, segment_automatically
+from core.segmentation.automatic import AutomaticConfig, segment_automatically, segment_rooms
 from core.segmentation.latest_regions import region_image
 from core.segmentation.offline import OfflineConfig, segment_offline
 from core.segmentation.paper_config import PaperConfig
@@ -58,7 +58,7 @@ def given_number(
     config = OfflineConfig()
     regions = segment_offline(floor, k, seed, config)
     progress(0.5, "grouping regions into rooms")
-    rooms = segment_automatically(restricted(grid, floor), seed=seed).rooms
+    rooms = segment_rooms(restricted(grid, floor))
     history = ({"event": "offline", "regions": k, "seed": seed},)
     return FoundRegions(regions, rooms, history, asdict(config), {})
 

@@ -104,20 +104,38 @@ def segment_automatically(
     """
     config = config or AutomaticConfig()
     resolution = grid.geometry.resolution
-    if not grid.free.any():
-        raise MapError("the map has no free space to divide")
     progress(0.0, "looking for rooms")
-    history: list[dict[str, Any]] = []
-    draft = draft_of(grid.free, grid.occupied, resolution, config.draft, config.clutter)
-    floor = draft[1].floor
-    rooms = _rooms(*draft, judges or stored_judges(), history)
-    del draft  # the largest images of a large map
+    rooms, floor, history = _rooms_and_floor(grid, config, judges)
     regions = _nodes(
         rooms, floor, resolution, config.convex, history, seed, part_of(progress, ROOMS_SHARE, 1.0)
     )
     filled = ~grid.free
     rooms[filled], regions[filled] = 0, 0
     return Segmentation(renumber(regions), renumber(rooms), tuple(history))
+
+
+def segment_rooms(
+    grid: OccupancyGrid, config: AutomaticConfig | None = None, judges: RoomJudges | None = None
+) -> IntArray:
+    """Label image (rows, cols) of the rooms 1..m alone, 0 = none.
+
+    Args, raises: as for `segment_automatically`.
+    """
+    rooms, _, _ = _rooms_and_floor(grid, config or AutomaticConfig(), judges)
+    rooms[~grid.free] = 0
+    return renumber(rooms)
+
+
+def _rooms_and_floor(
+    grid: OccupancyGrid, config: AutomaticConfig, judges: RoomJudges | None
+) -> tuple[IntArray, BoolArray, list[dict[str, Any]]]:
+    """Rooms, the floor that they share out (the map's and what is filled in), and the history."""
+    if not grid.free.any():
+        raise MapError("the map has no free space to divide")
+    resolution = grid.geometry.resolution
+    cells, around = draft_of(grid.free, grid.occupied, resolution, config.draft, config.clutter)
+    rooms, history = _rooms(cells, around, judges or stored_judges())
+    return rooms, around.floor, history
 
 
 def draft_of(
@@ -140,9 +158,9 @@ def draft_of(
 
 
 def _rooms(
-    cells: IntArray, around: Surroundings, judges: RoomJudges, history: list[dict[str, Any]]
-) -> IntArray:
-    """Label image of the rooms."""
+    cells: IntArray, around: Surroundings, judges: RoomJudges
+) -> tuple[IntArray, list[dict[str, Any]]]:
+    """Label image of the rooms, and the borders between them for the history."""
 
     def judge(_: list[tuple[int, int]], features: FloatArray) -> FloatArray:
         return judges.border.log_odds(features)
@@ -152,6 +170,7 @@ def _rooms(
     tree = merge_tree(rooms.copy(), judge)
     for kept, gone in tree.mergers(tree.best(judges.room.worth(tree.features))):
         rooms.join(kept, gone)
+    history: list[dict[str, Any]] = []
     for odds, (a, b) in judged(rooms, rooms.pairs(), judge):
         border = rooms.borders[a][b]
         history.append(
@@ -164,7 +183,7 @@ def _rooms(
                 "reason": BETTER_APART[odds < 0],
             }
         )
-    return np.asarray(rooms.parent[cells])
+    return np.asarray(rooms.parent[cells]), history
 
 
 def _nodes(

@@ -9,7 +9,7 @@ import numpy as np
 
 from core.geometry import FloatArray, IntArray
 from core.mapping import OccupancyGrid
-from core.segmentation.automatic import segment_automatically
+from core.segmentation.automatic import segment_rooms
 
 
 @dataclass(frozen=True)
@@ -35,4 +35,4 @@ class Moment:
         """(rows, cols) the rooms that automatic segmentation sees on the map, 0 = none."""
         if not self.grid.free.any():
             return np.zeros(self.grid.geometry.shape, np.int64)
-        return segment_automatically(self.grid).rooms
+        return segment_rooms(self.grid)

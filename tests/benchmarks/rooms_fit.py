@@ -28,7 +28,7 @@ from sonar_maps import SONAR, sonar_maps
 
 from core.geometry import FloatArray
 from core.segmentation import boundary_model, room_model
-from core.segmentation.automatic import AutomaticConfig, RoomJudges, segment_automatically
+from core.segmentation.automatic import AutomaticConfig, RoomJudges, segment_rooms
 from core.segmentation.boundary_model import BoundaryModel
 from core.segmentation.decision_forest import DecisionForest
 from core.segmentation.room_model import RoomModel
@@ -133,7 +133,7 @@ def drawn_folds(lessons: list[Lesson], folds: int, seed: int) -> list[int]:
 
 def quality(m: MapOfRooms, judges: RoomJudges) -> float:
     """Panoptic quality on a map."""
-    return scored(m, segment_automatically(m.grid, judges=judges).rooms)["pq"]
+    return scored(m, segment_rooms(m.grid, judges=judges))["pq"]
 
 
 def told(what: str, m: MapOfRooms, pq: float) -> float:

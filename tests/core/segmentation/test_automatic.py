@@ -3,7 +3,7 @@ import pytest
 
 from core.errors import MapError
 from core.mapping import GridGeometry, OccupancyGrid
-from core.segmentation.automatic import segment_automatically
+from core.segmentation.automatic import segment_automatically, segment_rooms
 from core.segmentation.hidden_pairs import hidden_pairs
 
 
@@ -51,3 +51,8 @@ def test_a_map_without_free_space_is_refused():
     geometry = GridGeometry(0.05, (0.0, 0.0, 0.0), (20, 20))
     with pytest.raises(MapError, match="no free space"):
         segment_automatically(OccupancyGrid(geometry, np.zeros((20, 20), np.uint8)))
+
+
+def test_rooms_can_be_had_without_their_regions(corridor_with_three_rooms):
+    rooms = segment_rooms(corridor_with_three_rooms)
+    assert np.array_equal(rooms, segment_automatically(corridor_with_three_rooms).rooms)

@@ -43,5 +43,5 @@ def test_the_forests_of_the_program_ask_for_features_that_exist(stored, features
     forest = stored_forest(stored)
     assert set(forest.feature.tolist()) == {-1, *range(len(features))}
     answers = forest.threshold[forest.feature < 0]
-    assert 0 <= answers.min()
+    assert answers.min() >= 0
     assert answers.max() <= 1
