@@ -149,16 +149,23 @@ def region_shapes(
     return shapes
 
 
-def common_walls(cells: IntArray, resolution: float) -> dict[Pair, float]:
-    """Metres of wall between each two labels: the border that they would have without it."""
+def common_walls(
+    cells: IntArray, touching: dict[Pair, FloatArray], resolution: float
+) -> dict[Pair, float]:
+    """Metres of wall between each two labels: the border that they would have without it.
+
+    Args:
+        cells: (rows, cols) label image, 0 = none.
+        touching: its boundary points.
+        resolution: metres per cell.
+    """
     nearest = ndimage.distance_transform_edt(
         cells == 0, return_distances=False, return_indices=True
     )
     grown = cells.copy()
     _grow(grown, nearest, WALL_THICKNESS / 2, resolution)
-    open_border = boundary_points(cells)
     return {
-        pair: max(0, len(points) - len(open_border.get(pair, ()))) * resolution
+        pair: max(0, len(points) - len(touching.get(pair, ()))) * resolution
         for pair, points in boundary_points(grown).items()
     }
 

@@ -10,12 +10,14 @@ from pathlib import Path
 import numba
 import numpy as np
 
-from core.geometry import FloatArray, IntArray
+from core.geometry import AnyArray, FloatArray
 
 
 @dataclass(frozen=True)
 class DecisionForest:
     """Trees in one table of knots; at a split, the knot after it is where small values go on.
+
+    The numbers may be small ones (int8, float32): asking a large forest is waiting for memory.
 
     Attributes:
         root: (t,) knot at which each tree begins.
@@ -25,10 +27,10 @@ class DecisionForest:
         high: (k,) the other way on.
     """
 
-    root: IntArray
-    feature: IntArray
-    threshold: FloatArray
-    high: IntArray
+    root: AnyArray
+    feature: AnyArray
+    threshold: AnyArray
+    high: AnyArray
 
     def mean(self, features: FloatArray) -> FloatArray:
         """The trees' mean answer (n,) to features (n, f)."""
@@ -55,20 +57,21 @@ def stored_forest(name: str) -> DecisionForest:
         as_file(files("core.segmentation").joinpath(name)) as path,
         np.load(path, allow_pickle=False) as stored,
     ):
-        ahead = stored["ahead"].astype(np.int64)
+        ahead = stored["ahead"]
         return DecisionForest(
-            stored["root"].astype(np.int64),
-            stored["feature"].astype(np.int64),
-            stored["threshold"].astype(np.float64),
-            ahead + np.arange(len(ahead)),
+            stored["root"],
+            stored["feature"],
+            stored["threshold"],
+            ahead + np.arange(len(ahead), dtype=ahead.dtype),
         )
 
 
 @numba.njit(cache=True)
 def _mean(features, root, feature, threshold, high):  # type: ignore[no-untyped-def]
     out = np.zeros(len(features))
-    for i in range(len(features)):
-        for knot in root:
+    for first in root:  # all rows through one tree while it is in the cache
+        for i in range(len(features)):
+            knot = first
             while feature[knot] >= 0:
                 low = features[i, feature[knot]] <= threshold[knot]
                 knot = knot + 1 if low else high[knot]

@@ -53,9 +53,11 @@ class RegionGraph:
         self.parent = np.arange(int(cells.max(initial=0)) + 1)
         self.borders: dict[int, dict[int, Border]] = {value: {} for value in self.shapes}
         self._walls: dict[int, dict[int, float]] = {value: {} for value in self.shapes}
-        for (a, b), points in boundary_points(cells).items():
+        self._outlines: dict[int, RegionOutline] = {}
+        touching = boundary_points(cells)
+        for (a, b), points in touching.items():
             self.borders[a][b] = self.borders[b][a] = self._border(points)
-        for (a, b), length in common_walls(cells, around.resolution).items():
+        for (a, b), length in common_walls(cells, touching, around.resolution).items():
             self._walls[a][b] = self._walls[b][a] = length
 
     def copy(self) -> RegionGraph:
@@ -64,6 +66,7 @@ class RegionGraph:
         twin.shapes, twin.parent = dict(self.shapes), self.parent.copy()
         twin.borders = {value: dict(others) for value, others in self.borders.items()}
         twin._walls = {value: dict(others) for value, others in self._walls.items()}
+        twin._outlines = dict(self._outlines)
         return twin
 
     def pairs(self) -> list[Pair]:
@@ -86,17 +89,21 @@ class RegionGraph:
         )
 
     def outline(self, region: int) -> RegionOutline:
-        """What bounds a region."""
-        borders, resolution = self.borders[region], self.around.resolution
-        return RegionOutline(
-            sum(len(border.points) for border in borders.values()) * resolution,
-            sum(self._walls[region].values()),
-            len(borders),
-        )
+        """What bounds a region; measured again only when that has changed, as it is asked often."""
+        if region not in self._outlines:
+            borders, resolution = self.borders[region], self.around.resolution
+            self._outlines[region] = RegionOutline(
+                sum(len(border.points) for border in borders.values()) * resolution,
+                sum(self._walls[region].values()),
+                len(borders),
+            )
+        return self._outlines[region]
 
     def join(self, kept: int, gone: int) -> list[Pair]:
         """Makes two regions one; returns the pairs whose border has changed."""
         self.parent[self.parent == gone] = kept
+        for changed in (kept, gone, *self.borders[gone], *self._walls[gone]):
+            self._outlines.pop(changed, None)
         self.shapes[kept] = self.shapes[kept].joined(self.shapes.pop(gone), self.around.resolution)
         for other, border in self.borders.pop(gone).items():
             del self.borders[other][gone]
