@@ -110,7 +110,8 @@ def split_until_convex(
 
 def _boxed(mask: BoolArray, corner: tuple[int, int]) -> tuple[BoolArray, Box]:
     """What a mask with its lowest cell at `corner` holds, and the box around that."""
-    rows, cols = ndimage.find_objects(mask.astype(np.uint8))[0]
+    in_row, in_col = np.flatnonzero(mask.any(axis=1)), np.flatnonzero(mask.any(axis=0))
+    rows, cols = slice(in_row[0], in_row[-1] + 1), slice(in_col[0], in_col[-1] + 1)
     row, col = corner
     box = slice(row + rows.start, row + rows.stop), slice(col + cols.start, col + cols.stop)
     return mask[rows, cols], box
@@ -155,17 +156,25 @@ def two_way_cut(mask: BoolArray, least: float, max_cell: int) -> TwoWayCut | Non
 def _second_eigenvector(weights: sparse.csr_array, area: FloatArray) -> FloatArray:
     """Of (D - W) y = lambda A y with the areas A as volumes; the sign is fixed."""
     n = len(area)
-    degree = np.asarray(weights.sum(axis=1)).ravel()
-    scale = sparse.diags_array(1 / np.sqrt(area))
-    laplacian = scale @ (sparse.diags_array(degree) - weights) @ scale
+    laplacian = _scaled_laplacian(weights, 1 / np.sqrt(area))
     if n <= DENSE_BELOW:
         vector = np.linalg.eigh(laplacian.toarray())[1][:, 1]
     else:
         start = np.sqrt(area) + np.arange(n) / n
-        values, vectors = eigsh(laplacian.tocsc(), 2, sigma=SHIFT, v0=start)
+        values, vectors = eigsh(laplacian, 2, sigma=SHIFT, v0=start)
         vector = vectors[:, values.argmax()]
     vector = vector / np.sqrt(area)
     return np.asarray(-vector if vector[np.abs(vector).argmax()] < 0 else vector)
+
+
+def _scaled_laplacian(weights: sparse.csr_array, scale: FloatArray) -> sparse.csc_array:
+    """S (D - W) S with S = diag(scale), put together at once: products of sparse matrices take as
+    long as the eigenvectors."""
+    coo, every = weights.tocoo(), np.arange(len(scale))
+    degree = np.asarray(weights.sum(axis=1)).ravel()
+    row, col = np.concatenate((coo.row, every)), np.concatenate((coo.col, every))
+    value = scale[row] * np.concatenate((-coo.data, degree)) * scale[col]
+    return sparse.csc_array(sparse.coo_array((value, (row, col)), shape=2 * scale.shape))
 
 
 def _best_prefix(

@@ -27,12 +27,13 @@ def hidden_pairs(
         pairs: how many pairs are drawn; the standard error is below 0.5 / sqrt(pairs).
         seed: of the draw.
     """
-    cells = np.argwhere(mask)
+    cells = np.flatnonzero(mask)
     if len(cells) < 2:
         return 0.0
     rng = np.random.default_rng(seed)
-    ends = rng.integers(len(cells), size=(2, pairs))
-    return float(_hidden(cells[ends[0]], cells[ends[1]], blocked)) / pairs
+    ends = cells[rng.integers(len(cells), size=(2, pairs))]
+    start, stop = np.stack(np.divmod(ends, mask.shape[1]), axis=-1)
+    return float(_hidden(start, stop, blocked)) / pairs
 
 
 @numba.njit(cache=True)
