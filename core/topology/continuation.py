@@ -16,6 +16,7 @@ from core.geometry import IntArray
 from core.mapping import GridGeometry
 from core.topology.labels import carried_labels, room_image, with_rooms
 from core.topology.model import Model
+from core.topology.region_cells import region_cells
 from core.topology.renumbering import renumbered
 from core.topology.topological_map import Edge, Node, TopologicalMap
 
@@ -73,8 +74,10 @@ def _shared(
     """Share of the smaller one that earlier nodes and new regions have in common, where it counts."""
     area = np.bincount(regions.ravel())
     found = {}
-    for node in earlier.topology.nodes:
-        world = earlier.grid.geometry.world_of(np.argwhere(earlier.regions == node.region))
+    nodes = earlier.topology.nodes
+    before = region_cells(earlier.regions, (node.region for node in nodes))
+    for node, mine in zip(nodes, before, strict=True):
+        world = earlier.grid.geometry.world_of(mine)
         cells = geometry.cell_of(world)
         cells = cells[geometry.contains(cells)]
         hit = np.bincount(regions[cells[:, 0], cells[:, 1]], minlength=len(area))

@@ -14,6 +14,7 @@ import numpy as np
 from core.errors import InputError
 from core.geometry import IntArray
 from core.mapping import GridGeometry
+from core.topology.region_cells import region_cells
 from core.topology.topological_map import Node, Room, TopologicalMap
 from core.wording import is_printable
 
@@ -149,15 +150,15 @@ def carried_labels(
         the largest overlap.
     """
     best: dict[int, tuple[int, str]] = {}
-    for node in old.nodes:
-        if node.label is None:
-            continue
-        world = old_geometry.world_of(np.argwhere(old_regions == node.region))
+    labelled = [(node.region, node.label) for node in old.nodes if node.label is not None]
+    before = region_cells(old_regions, (region for region, _ in labelled))
+    for (_, label), mine in zip(labelled, before, strict=True):
+        world = old_geometry.world_of(mine)
         cells = new_geometry.cell_of(world)
         cells = cells[new_geometry.contains(cells)]
         hit = np.bincount(new_regions[cells[:, 0], cells[:, 1]], minlength=1)
         hit[0] = 0
         for region in np.flatnonzero(hit >= CARRY_OVERLAP * max(1, len(world))):
             if int(hit[region]) > best.get(int(region), (0, ""))[0]:
-                best[int(region)] = (int(hit[region]), node.label)
+                best[int(region)] = (int(hit[region]), label)
     return {region: label for region, (_, label) in best.items()}

@@ -39,13 +39,13 @@ def topology_of(
     """
     labels, ids = labels or {}, dict(node_ids or {})
     number = next_number
-    values = [int(value) for value in np.unique(regions) if value > 0]
+    boxes = ndimage.find_objects(regions)
+    values = [value for value, box in enumerate(boxes, start=1) if box is not None]
     for value in values:
         if value not in ids:
             ids[value] = f"n{number}"
             number += 1
     nodes = []
-    boxes = ndimage.find_objects(regions)
     for value in values:
         box = boxes[value - 1]
         mask = regions[box] == value
