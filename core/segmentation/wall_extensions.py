@@ -48,6 +48,10 @@ def wall_extensions(
         (n, 2, 2) both ends `[row, col]`, the shortest first.
     """
     config = config or ExtensionConfig()
+    most, start = (
+        int((config.longest + config.start) / resolution) + 1,
+        int(config.start / resolution),
+    )
     found = []
     for contour in find_contours(np.pad(floor, 1).astype(float), 0.5):  # type: ignore[no-untyped-call]
         corners = simplified_line(contour - 1, config.tolerance / resolution)
@@ -56,34 +60,31 @@ def wall_extensions(
         for i in np.flatnonzero(length * resolution >= config.shortest_wall):
             direction = walls[i] / length[i]
             for corner, onward in ((corners[i + 1], direction), (corners[i], -direction)):
-                segment = _onward(floor, corner, onward, resolution, config)
-                if segment is not None:
-                    found.append(segment)
+                first, run = _onward(floor, corner, onward, most, start)
+                if config.shortest <= run * resolution <= config.longest:
+                    ends = np.array([[first], [first + run - 1]])
+                    found.append(corner + ends * onward)
     return _distinct(found, config.same / resolution)
 
 
-def _onward(
-    floor: BoolArray,
-    corner: FloatArray,
-    direction: FloatArray,
-    resolution: float,
-    config: ExtensionConfig,
-) -> FloatArray | None:
-    """The free stretch beyond a corner, or None when there is none of a fitting length."""
-    steps = np.arange(1, int((config.longest + config.start) / resolution) + 2)
-    cells = np.rint(corner + steps[:, None] * direction).astype(np.int64)
-    inside = ((cells >= 0) & (cells < floor.shape)).all(axis=1)
-    free = np.zeros(len(steps), bool)
-    free[inside] = floor[cells[inside, 0], cells[inside, 1]]
-    if not free[: int(config.start / resolution) + 1].any():
-        return None
-    first = int(free.argmax())
-    run = int((~free[first:]).argmax())
-    if not config.shortest <= run * resolution <= config.longest:
-        return None
-    return np.stack(
-        (corner + steps[first] * direction, corner + steps[first + run - 1] * direction)
-    )
+@numba.njit(cache=True)
+def _onward(floor, corner, direction, most, start):  # type: ignore[no-untyped-def]
+    """The step (of length 1) from a corner at which free space begins, and how many steps it lasts.
+
+    (0, 0) where it begins later than `start` steps after the first, or does not end within `most`.
+    """
+    first = 0
+    for step in range(1, most + 1):
+        row, col = corner + step * direction
+        i, j = int(np.rint(row)), int(np.rint(col))
+        free = 0 <= i < floor.shape[0] and 0 <= j < floor.shape[1] and floor[i, j]
+        if free and not first:
+            first = step
+        if first and not free:
+            return first, step - first
+        if not first and step > start:
+            break
+    return 0, 0
 
 
 def _distinct(segments: list[FloatArray], same: float) -> FloatArray:
