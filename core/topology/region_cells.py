@@ -18,4 +18,4 @@ def region_cells(regions: IntArray, values: Iterable[int]) -> Iterator[IntArray]
         if box is None:
             yield np.zeros((0, 2), np.int64)
         else:
-            yield np.argwhere(regions[box] == value) + [box[0].start, box[1].start]
+            yield np.argwhere(regions[box] == value) + np.array([box[0].start, box[1].start])
