@@ -32,18 +32,20 @@ def _needed(points: FloatArray, tolerance: float) -> BoolArray:
     while waiting:
         start, end = waiting.pop()
         row, col = points[start]
-        d_row, d_col = points[end] - points[start]
+        to_row, to_col = points[end]
+        d_row, d_col = to_row - row, to_col - col
         angle = -math.atan2(d_row, d_col)
         cos, sin = math.cos(angle), math.sin(angle)
         level = col * sin + row * cos
         farthest, most = -1, tolerance
         for k in range(start + 1, end):
-            r, c = points[k] - points[start]
-            back_r, back_c = points[k] - points[end]
-            if r * d_row + c * d_col > 0 and -back_r * d_row - back_c * d_col > 0:
-                away = abs(points[k, 0] * cos + points[k, 1] * sin - level)
+            r, c = points[k]
+            from_start = (r - row) * d_row + (c - col) * d_col
+            to_end = (to_row - r) * d_row + (to_col - c) * d_col
+            if from_start > 0 and to_end > 0:
+                away = abs(r * cos + c * sin - level)
             else:
-                away = math.sqrt(min(r * r + c * c, back_r * back_r + back_c * back_c))
+                away = min(math.hypot(r - row, c - col), math.hypot(r - to_row, c - to_col))
             if away > most:
                 farthest, most = k, away
         if farthest >= 0:

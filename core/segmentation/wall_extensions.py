@@ -48,10 +48,8 @@ def wall_extensions(
         (n, 2, 2) both ends `[row, col]`, the shortest first.
     """
     config = config or ExtensionConfig()
-    most, start = (
-        int((config.longest + config.start) / resolution) + 1,
-        int(config.start / resolution),
-    )
+    most = int((config.longest + config.start) / resolution) + 1
+    start = int(config.start / resolution)
     found = []
     for contour in find_contours(np.pad(floor, 1).astype(float), 0.5):  # type: ignore[no-untyped-call]
         corners = simplified_line(contour - 1, config.tolerance / resolution)
@@ -75,8 +73,8 @@ def _onward(floor, corner, direction, most, start):  # type: ignore[no-untyped-d
     """
     first = 0
     for step in range(1, most + 1):
-        row, col = corner + step * direction
-        i, j = int(np.rint(row)), int(np.rint(col))
+        i = int(round(corner[0] + step * direction[0]))
+        j = int(round(corner[1] + step * direction[1]))
         free = 0 <= i < floor.shape[0] and 0 <= j < floor.shape[1] and floor[i, j]
         if free and not first:
             first = step
