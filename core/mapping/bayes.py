@@ -18,6 +18,7 @@ from core.mapping.beam_footprint import (
 from core.mapping.map_result import MapResult, check_size, cropped
 from core.mapping.occupancy_grid import DEFAULT_RESOLUTION, OccupancyGrid
 from core.mapping.robot_footprint import driven_over
+from core.mapping.witnesses import witnesses_of
 from core.progress import Progress, no_progress
 from core.sensing import RobotLog, Trajectory
 
@@ -86,7 +87,7 @@ def bayes_map(
             config.trusted_range,
         ]
     )
-    log_odds = _log_odds(
+    beams = (
         readings.pose,
         readings.range_m,
         readings.sonar,
@@ -95,8 +96,10 @@ def bayes_map(
         frame,
         shape,
         capacity,
-        model,
-    ).reshape(geometry.shape)
+    )
+    log_odds = _log_odds(*beams, model).reshape(geometry.shape)
+    all_of_them = np.ones(len(readings), bool)
+    witnesses = witnesses_of(all_of_them, config.free_clearance, *beams).reshape(geometry.shape)
     occupied = log_odds > config.occupied_above
     free = (log_odds < config.free_below) | driven_over(
         geometry, trajectory.poses, log.ring.robot_radius
@@ -105,7 +108,8 @@ def bayes_map(
     kept[readings.scan, readings.sonar] = True
     progress(1.0, "adding evidence")
     grid = OccupancyGrid.of(geometry, free, occupied & ~free)
-    return cropped(MapResult(grid, np.where(grid.occupied, log_odds, 0.0), kept))
+    confidence = np.where(grid.occupied, log_odds, 0.0)
+    return cropped(MapResult(grid, confidence, kept, witnesses))
 
 
 @numba.njit(cache=True)

@@ -33,6 +33,7 @@ from core.mapping.beam_footprint import (
 from core.mapping.map_result import MapResult, check_size, cropped
 from core.mapping.occupancy_grid import DEFAULT_RESOLUTION, GridGeometry, OccupancyGrid
 from core.mapping.robot_footprint import driven_over
+from core.mapping.witnesses import witnesses_of
 from core.progress import Progress, no_progress
 from core.sensing import RobotLog, Trajectory
 
@@ -90,7 +91,8 @@ def cemal_map(
     kept = np.zeros(log.ranges.shape, bool)
     kept[readings.scan[alive], readings.sonar[alive]] = True
     grid = OccupancyGrid.of(geometry, free, occupied)
-    return cropped(MapResult(grid, np.where(occupied, confidence, 0.0), kept))
+    confidence = np.where(occupied, confidence, 0.0)
+    return cropped(MapResult(grid, confidence, kept, sieve.witnesses(alive)))
 
 
 class _Sieve:
@@ -154,6 +156,11 @@ class _Sieve:
         occupied = (confidence > 0).reshape(shape)
         free = (empty > 0).reshape(shape) & ~occupied
         return free, occupied, confidence.reshape(shape)
+
+    def witnesses(self, alive: BoolArray) -> IntArray:
+        """How many of the surviving readings free each cell (rows, cols)."""
+        count = witnesses_of(alive, self._config.free_clearance, *self._beams)
+        return np.asarray(count).reshape(self._geometry.shape)
 
     def _empty_pressure(self, alive: BoolArray, clearance: float) -> FloatArray:
         return np.asarray(_empty_pressure(alive, clearance, *self._beams))

@@ -122,7 +122,9 @@ class IncrementalCemal:
         occupied = (confidence > 0) & ~self._under_robot
         free = (empty.reshape(shape) & ~occupied) | self._under_robot
         grid = OccupancyGrid.of(self._geometry, free, occupied)
-        return cropped(MapResult(grid, np.where(occupied, confidence, 0.0), self._kept()))
+        confidence = np.where(occupied, confidence, 0.0)
+        witnesses = cells.free.astype(np.int64).reshape(shape)
+        return cropped(MapResult(grid, confidence, self._kept(), witnesses))
 
     def _kept(self) -> BoolArray:
         kept = np.zeros((self.scans, len(self.ring)), bool)

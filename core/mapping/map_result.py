@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from core.errors import MapError
-from core.geometry import BoolArray, FloatArray
+from core.geometry import BoolArray, FloatArray, IntArray
 from core.mapping.occupancy_grid import GridGeometry, OccupancyGrid
 
 MAX_CELLS = 25_000_000
@@ -24,11 +24,14 @@ class MapResult:
         grid: the occupancy grid.
         confidence: (rows, cols) Conf of eq. (5) of the occupied cells, 0 elsewhere.
         kept: (N, S) which readings of the log the map is made of.
+        witnesses: (rows, cols) how many of these call each cell empty; 0 under a robot that no
+            reading speaks of.
     """
 
     grid: OccupancyGrid
     confidence: FloatArray
     kept: BoolArray
+    witnesses: IntArray
 
 
 def check_size(geometry: GridGeometry) -> None:
@@ -65,4 +68,9 @@ def cropped(result: MapResult) -> MapResult:
         (int(high[0] - low[0]), int(high[1] - low[1])),
     )
     grid = OccupancyGrid(moved, np.ascontiguousarray(state[part]))
-    return replace(result, grid=grid, confidence=np.ascontiguousarray(result.confidence[part]))
+    return replace(
+        result,
+        grid=grid,
+        confidence=np.ascontiguousarray(result.confidence[part]),
+        witnesses=np.ascontiguousarray(result.witnesses[part]),
+    )

@@ -7,18 +7,41 @@ from scipy import ndimage
 
 from core.geometry import BoolArray
 from core.mapping import FREE, UNKNOWN, OccupancyGrid
+from core.mapping.map_result import MapResult
 from core.segmentation.connected import reachable_floor
 from core.sensing import Trajectory
 
 PASSAGE = 0.3
 """Metres: free space that hangs on the rest by less is a leak of the map, not a place to go to."""
+HEARSAY = 1.0
+"""Square metres: largest part of free space that may rest on one reading. On 136 simulated drives that
+this was chosen on, the largest such part inside a room had .58; all 14 above 1 lay behind a wall.
+"""
 
 
-def floor_of_drive(grid: OccupancyGrid, trajectory: Trajectory) -> BoolArray:
+def floor_of_drive(result: MapResult, trajectory: Trajectory) -> BoolArray:
     """The free space (rows, cols) that hangs together with where the robot has been."""
-    cells = grid.geometry.cell_of(trajectory.poses[:, :2])
-    seeds = cells[grid.geometry.contains(cells)]
-    return reachable_floor(grid.free, seeds, PASSAGE / 2 / grid.geometry.resolution)
+    geometry = result.grid.geometry
+    cells = geometry.cell_of(trajectory.poses[:, :2])
+    seeds = cells[geometry.contains(cells)]
+    free = result.grid.free & ~hearsay(result)
+    return reachable_floor(free, seeds, PASSAGE / 2 / geometry.resolution)
+
+
+def hearsay(result: MapResult) -> BoolArray:
+    """Large parts of free space (rows, cols) for which a single reading vouches.
+
+    An echo that went astray at a corner frees a fan behind the wall, which no other reading
+    contradicts: none gets there. A room that the robot looks into is seen by many. What begins
+    under the robot itself is no hearsay: at the start of a drive there is nothing else.
+    """
+    grid = result.grid
+    alone = grid.free & (result.witnesses == 1)
+    large = large_parts(alone, round(HEARSAY / grid.geometry.cell_area))
+    parts, _ = ndimage.label(large)
+    unseen = grid.free & (result.witnesses == 0)
+    at_robot = np.unique(parts[ndimage.binary_dilation(unseen) & large])
+    return np.asarray(large & ~np.isin(parts, at_robot))
 
 
 def restricted(grid: OccupancyGrid, floor: BoolArray) -> OccupancyGrid:

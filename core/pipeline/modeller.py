@@ -108,7 +108,7 @@ def model_log(
     mapping = MappingOptions(options.mapping, options.resolution)
     result = map_log(log, trajectory, mapping, part_of(progress, DRIFT_SHARE, MAPPING_SHARE))
     grid, rest = result.grid, part_of(progress, MAPPING_SHARE, CUTTING_SHARE)
-    floor = floor_of_drive(grid, trajectory)
+    floor = floor_of_drive(result, trajectory)
     if options.regions is not None:
         found = given_number(grid, floor, options.regions, options.seed, rest)
     elif options.mode == "offline":

@@ -105,7 +105,7 @@ def found_so_far(growing: GrowingModel, whole: MapResult | None = None) -> Found
         whole: the map of all scans, by default the one that the drive has grown.
     """
     whole = whole or growing.whole_map()
-    floor = floor_of_drive(whole.grid, growing.trajectory)
+    floor = floor_of_drive(whole, growing.trajectory)
     grid = restricted(whole.grid, floor)
     moment = growing.moment(replace(whole, grid=grid))
     state = growing.finished(moment)

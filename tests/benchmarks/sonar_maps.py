@@ -31,8 +31,8 @@ def sonar_map(number: int) -> MapOfRooms:
     log, truth = simulate(home, seed=DRIVE_SEED + number), truth_of(home)
     assert log.truth is not None
     trajectory = Trajectory.from_odometry(log)
-    grid = map_log(log.without_truth(), trajectory).grid
-    grid = restricted(grid, floor_of_drive(grid, trajectory))
+    result = map_log(log.without_truth(), trajectory)
+    grid = restricted(result.grid, floor_of_drive(result, trajectory))
     geometry = aligned(grid.geometry, alignment(log.truth, log.odometry))
     centres = geometry.world_of(np.moveaxis(np.indices(grid.geometry.shape), 0, -1))
     rooms = sampled(truth.rooms, truth.geometry, centres, 0).astype(np.int64)

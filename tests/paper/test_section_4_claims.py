@@ -56,7 +56,8 @@ def test_4_1_the_template_holds_the_grids_of_more_than_average_confidence() -> N
     confidence[4, 3] = confidence[4, 9] = confidence[12, 5] = 5.0
     confidence[18, 18] = 1.0  # the average of all is 4
     grid = OccupancyGrid.of(geometry, ~occupied, occupied)
-    template = template_of(MapResult(grid, confidence, np.ones((1, 1), bool)))
+    witnesses = np.ones(grid.geometry.shape, np.int64)
+    template = template_of(MapResult(grid, confidence, np.ones((1, 1), bool), witnesses))
     assert template is not None
     assert template.occupied.shape == (9, 7)
     assert template.occupied.sum() == 3

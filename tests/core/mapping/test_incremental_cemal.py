@@ -25,21 +25,26 @@ def batch(log: RobotLog) -> MapResult:
     return cemal_map(log, Trajectory.from_odometry(log))
 
 
-def on_common_grid(result: MapResult, low: np.ndarray, shape: np.ndarray) -> np.ndarray:
+def on_common_grid(
+    result: MapResult, values: np.ndarray, low: np.ndarray, shape: np.ndarray
+) -> np.ndarray:
     geometry = result.grid.geometry
     col, row = np.round((np.array(geometry.origin[:2]) - low) / geometry.resolution).astype(int)
-    state = np.zeros(shape, np.uint8)
-    state[row : row + geometry.shape[0], col : col + geometry.shape[1]] = result.grid.state
-    return state
+    common = np.zeros(shape, values.dtype)
+    common[row : row + geometry.shape[0], col : col + geometry.shape[1]] = values
+    return common
 
 
 def share_of_different_cells(a: MapResult, b: MapResult) -> float:
+    """Share of the known cells that differ in state or in how many readings free them."""
     grids = [a.grid.geometry, b.grid.geometry]
     low = np.min([g.origin[:2] for g in grids], axis=0)
     high = np.max([np.array(g.origin[:2]) + np.array(g.shape[::-1]) * 0.05 for g in grids], axis=0)
     shape = np.round((high - low)[::-1] / 0.05).astype(int)
-    one, other = (on_common_grid(r, low, shape) for r in (a, b))
-    return float((one != other).sum() / ((one > 0) | (other > 0)).sum())
+    one, other = (on_common_grid(r, r.grid.state, low, shape) for r in (a, b))
+    freed, freed_too = (on_common_grid(r, r.witnesses, low, shape) for r in (a, b))
+    different = (one != other) | (freed != freed_too)
+    return float(different.sum() / ((one > 0) | (other > 0)).sum())
 
 
 def assert_same_at(log: RobotLog, moments: tuple[int, ...]) -> None:
