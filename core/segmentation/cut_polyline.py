@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from skimage.measure import approximate_polygon
 
 from core.geometry import BoolArray, FloatArray
 from core.segmentation.boundary_points import boundary_points
-from core.segmentation.simplified_line import simplified_line
 
 LONGEST_STEP = 1.5
 """Grids between two points of one line: neighbours on a staircase are at most 1 apart."""
@@ -29,7 +29,7 @@ def cut_polylines(first: BoolArray, second: BoolArray) -> tuple[list[FloatArray]
 def _simplified(line: FloatArray) -> FloatArray:
     if len(line) < 3:
         return line
-    return simplified_line(line, TOLERANCE)
+    return np.asarray(approximate_polygon(line, TOLERANCE))  # type: ignore[no-untyped-call]
 
 
 def _chained(points: FloatArray) -> list[FloatArray]:

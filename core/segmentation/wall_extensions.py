@@ -7,10 +7,9 @@ from dataclasses import dataclass
 
 import numba
 import numpy as np
-from skimage.measure import find_contours
+from skimage.measure import approximate_polygon, find_contours
 
 from core.geometry import BoolArray, FloatArray
-from core.segmentation.simplified_line import simplified_line
 
 
 @dataclass(frozen=True)
@@ -52,7 +51,7 @@ def wall_extensions(
     start = int(config.start / resolution)
     found = []
     for contour in find_contours(np.pad(floor, 1).astype(float), 0.5):  # type: ignore[no-untyped-call]
-        corners = simplified_line(contour - 1, config.tolerance / resolution)
+        corners = approximate_polygon(contour - 1, config.tolerance / resolution)  # type: ignore[no-untyped-call]
         walls = np.diff(corners, axis=0)
         length = np.hypot(walls[:, 0], walls[:, 1])
         for i in np.flatnonzero(length * resolution >= config.shortest_wall):
