@@ -2,8 +2,8 @@
 
 After Vincent, "Morphological grayscale reconstruction in image analysis" (IEEE Trans. Image
 Processing, 1993): a sweep down, a sweep up, and a queue for what the sweeps have not reached.
-scikit-image has the same, but sorts all cells first: with it a five-megapixel plan takes 800 MB and
-22 s instead of 500 MB and 12 s (`tests/benchmarks/large_plan.py`).
+scikit-image has the same, but sorts all cells first: with it a five-megapixel plan took 800 MB and
+22 s instead of 500 MB and 12 s when both were measured (`tests/benchmarks/large_plan.py`).
 """
 
 from __future__ import annotations
