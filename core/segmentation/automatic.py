@@ -28,6 +28,7 @@ from core.segmentation.main_axis import main_axis
 from core.segmentation.map_character import map_character
 from core.segmentation.merge_tree import merge_tree
 from core.segmentation.merging import RegionGraph, judged
+from core.segmentation.mutual_visibility import sight_blockers
 from core.segmentation.room_model import RoomModel, stored_room_model
 from core.segmentation.uncluttered import ClutterConfig, uncluttered
 
@@ -106,9 +107,11 @@ def segment_automatically(
     resolution = grid.geometry.resolution
     progress(0.0, "looking for rooms")
     rooms, floor, history = _rooms_and_floor(grid, config, judges)
-    regions = _nodes(
-        rooms, floor, resolution, config.convex, history, seed, part_of(progress, ROOMS_SHARE, 1.0)
-    )
+    blocked = ~floor | sight_blockers(
+        grid
+    )  # small lone obstacles are floor, but walls in pieces hide
+    rest = part_of(progress, ROOMS_SHARE, 1.0)
+    regions = _nodes(rooms, blocked, resolution, config.convex, history, seed, rest)
     filled = ~grid.free
     rooms[filled], regions[filled] = 0, 0
     return Segmentation(renumber(regions), renumber(rooms), tuple(history))
@@ -188,7 +191,7 @@ def _rooms(
 
 def _nodes(
     rooms: IntArray,
-    floor: BoolArray,
+    blocked: BoolArray,
     resolution: float,
     config: ConvexSplitConfig,
     history: list[dict[str, Any]],
@@ -203,7 +206,7 @@ def _nodes(
         if box is None:
             continue
         room = rooms[box] == value
-        for part in split_until_convex(room, ~floor[box], resolution, config, history, seed):
+        for part in split_until_convex(room, blocked[box], resolution, config, history, seed):
             count += 1
             regions[box][part] = count
         progress(value / len(boxes), "cutting rooms into convex regions")

@@ -19,7 +19,7 @@ STEP = 0.5
 def hidden_pairs(
     mask: BoolArray, blocked: BoolArray, pairs: int = DEFAULT_PAIRS, seed: int = 0
 ) -> float:
-    """Share (0..1) of random pairs of grids of `mask` whose straight line meets a blocked grid.
+    """Share (0..1) of random pairs of open grids of `mask` whose straight line meets a blocked one.
 
     Args:
         mask: (rows, cols) the region.
@@ -27,7 +27,7 @@ def hidden_pairs(
         pairs: how many pairs are drawn; the standard error is below 0.5 / sqrt(pairs).
         seed: of the draw.
     """
-    cells = np.flatnonzero(mask)
+    cells = np.flatnonzero(mask & ~blocked)
     if len(cells) < 2:
         return 0.0
     rng = np.random.default_rng(seed)

@@ -56,3 +56,18 @@ def test_a_map_without_free_space_is_refused():
 def test_rooms_can_be_had_without_their_regions(corridor_with_three_rooms):
     rooms = segment_rooms(corridor_with_three_rooms)
     assert np.array_equal(rooms, segment_automatically(corridor_with_three_rooms).rooms)
+
+
+def test_a_wall_in_pieces_parts_regions_though_no_piece_is_larger_than_a_chair():
+    """A thin wall across a square, mapped in pieces of .5 m with gaps of .15 m between them."""
+    free = np.zeros((140, 140), bool)
+    free[10:130, 10:130] = True
+    occupied = np.zeros_like(free)
+    for row in range(10, 130, 13):
+        occupied[row : min(row + 10, 130), 69:71] = True
+    free &= ~occupied
+    grid = OccupancyGrid.of(GridGeometry(0.05, (0.0, 0.0, 0.0), free.shape), free, occupied)
+    found = segment_automatically(grid)
+    assert found.regions.max() > 1
+    for value in range(1, found.regions.max() + 1):
+        assert hidden_pairs(found.regions == value, occupied) <= 0.2
