@@ -35,7 +35,7 @@ def need() -> Callable[[str], None]:
 @pytest.fixture(scope="session")
 def data_dir(request: pytest.FixtureRequest) -> Path:
     """The folder with real data."""
-    folder = Path(request.config.getoption("--data"))
+    folder = Path(request.config.getoption("--data")).resolve()
     if not (folder / "logs").is_dir():
         skip_or_fail(f"no real data in {folder}; give --data DIR")
     return folder
