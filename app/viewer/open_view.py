@@ -153,10 +153,7 @@ class OpenView:
         """Called by viser, in a thread of its own."""
         self._on_loop(self._leave, client)
 
-    def _clicked(
-        self,
-        event: viser.SceneClickEvent,
-    ) -> None:
+    def _clicked(self, event: viser.SceneClickEvent) -> None:
         """Called by viser, in a thread of its own."""
         if event.ray_origin is not None and event.ray_direction is not None:
             self._on_loop(self._click, event.client, event.ray_origin, event.ray_direction)

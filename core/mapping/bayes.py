@@ -15,10 +15,10 @@ from core.mapping.beam_footprint import (
     grid_around,
     readings_of,
 )
+from core.mapping.empty_evidence import empty_evidence
 from core.mapping.map_result import MapResult, check_size, cropped
 from core.mapping.occupancy_grid import DEFAULT_RESOLUTION, OccupancyGrid
 from core.mapping.robot_footprint import driven_over
-from core.mapping.witnesses import witnesses_of
 from core.progress import Progress, no_progress
 from core.sensing import RobotLog, Trajectory
 
@@ -98,8 +98,7 @@ def bayes_map(
         capacity,
     )
     log_odds = _log_odds(*beams, model).reshape(geometry.shape)
-    all_of_them = np.ones(len(readings), bool)
-    witnesses = witnesses_of(all_of_them, config.free_clearance, *beams).reshape(geometry.shape)
+    _, count = empty_evidence(np.ones(len(readings), bool), config.free_clearance, *beams)
     occupied = log_odds > config.occupied_above
     free = (log_odds < config.free_below) | driven_over(
         geometry, trajectory.poses, log.ring.robot_radius
@@ -109,7 +108,7 @@ def bayes_map(
     progress(1.0, "adding evidence")
     grid = OccupancyGrid.of(geometry, free, occupied & ~free)
     confidence = np.where(grid.occupied, log_odds, 0.0)
-    return cropped(MapResult(grid, confidence, kept, witnesses))
+    return cropped(MapResult(grid, confidence, kept, count.reshape(geometry.shape)))
 
 
 @numba.njit(cache=True)

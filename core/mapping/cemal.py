@@ -30,10 +30,10 @@ from core.mapping.beam_footprint import (
     grid_around,
     readings_of,
 )
+from core.mapping.empty_evidence import empty_evidence
 from core.mapping.map_result import MapResult, check_size, cropped
 from core.mapping.occupancy_grid import DEFAULT_RESOLUTION, GridGeometry, OccupancyGrid
 from core.mapping.robot_footprint import driven_over
-from core.mapping.witnesses import witnesses_of
 from core.progress import Progress, no_progress
 from core.sensing import RobotLog, Trajectory
 
@@ -84,7 +84,7 @@ def cemal_map(
     check_size(geometry)
     sieve = _Sieve(BeamFootprints.of(log.ring), readings, geometry, config)
     alive = sieve.settle(progress)
-    free, occupied, confidence = sieve.draw(alive)
+    free, occupied, confidence, witnesses = sieve.draw(alive)
     under_robot = driven_over(geometry, trajectory.poses, log.ring.robot_radius)
     free |= under_robot
     occupied &= ~under_robot
@@ -92,7 +92,7 @@ def cemal_map(
     kept[readings.scan[alive], readings.sonar[alive]] = True
     grid = OccupancyGrid.of(geometry, free, occupied)
     confidence = np.where(occupied, confidence, 0.0)
-    return cropped(MapResult(grid, confidence, kept, sieve.witnesses(alive)))
+    return cropped(MapResult(grid, confidence, kept, witnesses))
 
 
 class _Sieve:
@@ -126,7 +126,7 @@ class _Sieve:
         alive = np.ones(count, bool)
         verdict = np.full(count, LOSES, np.int64)
         for round_number in range(config.max_rounds):
-            empty = self._empty_pressure(alive, config.conflict_clearance)
+            empty, _ = empty_evidence(alive, config.conflict_clearance, *self._beams)
             defended = self._judge(alive, empty, verdict)
             wrong = _contradicting(
                 alive, verdict, defended, config.conflict_clearance, *self._beams
@@ -140,14 +140,15 @@ class _Sieve:
             verdict[wrong] = OPEN
         return alive
 
-    def draw(self, alive: BoolArray) -> tuple[BoolArray, BoolArray, FloatArray]:
-        """Free, occupied (masks) and confidence (eq. 5) of the surviving readings.
+    def draw(self, alive: BoolArray) -> tuple[BoolArray, BoolArray, FloatArray, IntArray]:
+        """Free, occupied (masks) and confidence (eq. 5) of the surviving readings, and how many of
+        them free each cell.
 
         Free is the union of their sectors; occupied are their arcs minus free, and the cell that a
         reading defends when its whole arc would be free.
         """
         config = self._config
-        empty = self._empty_pressure(alive, config.free_clearance)
+        empty, witnesses = empty_evidence(alive, config.free_clearance, *self._beams)
         verdict = np.where(alive, LOSES, OPEN).astype(np.int64)
         defended = self._judge(alive, empty, verdict)
         confidence = _arc_pressure(alive, empty, config.arc_half_thickness, *self._beams)
@@ -155,37 +156,11 @@ class _Sieve:
         shape = self._geometry.shape
         occupied = (confidence > 0).reshape(shape)
         free = (empty > 0).reshape(shape) & ~occupied
-        return free, occupied, confidence.reshape(shape)
-
-    def witnesses(self, alive: BoolArray) -> IntArray:
-        """How many of the surviving readings free each cell (rows, cols)."""
-        count = witnesses_of(alive, self._config.free_clearance, *self._beams)
-        return np.asarray(count).reshape(self._geometry.shape)
-
-    def _empty_pressure(self, alive: BoolArray, clearance: float) -> FloatArray:
-        return np.asarray(_empty_pressure(alive, clearance, *self._beams))
+        return free, occupied, confidence.reshape(shape), witnesses.reshape(shape)
 
     def _judge(self, alive: BoolArray, empty: FloatArray, verdict: IntArray) -> FloatArray:
         thickness = self._config.arc_half_thickness
         return np.asarray(_judge(alive, empty, verdict, thickness, *self._beams))
-
-
-@numba.njit(cache=True)
-def _empty_pressure(alive, clearance, pose, ranges, sonar, half, gain, frame, shape, capacity):  # type: ignore[no-untyped-def]
-    """Maximum pressure, cell by cell, of the readings that call it empty; 0 where none does."""
-    empty = np.zeros(shape[0] * shape[1])
-    cells = np.empty(capacity, np.int64)
-    distance, pressure = np.empty(capacity), np.empty(capacity)
-    for i in range(len(ranges)):
-        reach = ranges[i] - clearance
-        if not alive[i] or reach <= 0:
-            continue
-        s = sonar[i]
-        n = cells_of_beam(pose[i], reach, half[s], gain[s], frame, shape, cells, distance, pressure)
-        for k in range(n):
-            if pressure[k] > empty[cells[k]]:
-                empty[cells[k]] = pressure[k]
-    return empty
 
 
 @numba.njit(cache=True)

@@ -37,10 +37,9 @@ BARE = ClutterConfig(largest_obstacle=1.5, least_floor=0.0)
 ROOMS_SHARE = 0.7
 """Share of the time that goes into the rooms, for the progress."""
 
-BETTER_APART = (
-    "likely the border of two rooms",
-    "an unlikely border, but both sides make better rooms than they would make together",
-)
+LIKELY = "likely the border of two rooms"
+UNLIKELY = "an unlikely border, but both sides make better rooms than they would make together"
+"""Why a border between two rooms stays."""
 
 
 @dataclass(frozen=True)
@@ -107,9 +106,8 @@ def segment_automatically(
     resolution = grid.geometry.resolution
     progress(0.0, "looking for rooms")
     rooms, floor, history = _rooms_and_floor(grid, config, judges)
-    blocked = ~floor | sight_blockers(
-        grid
-    )  # small lone obstacles are floor, but walls in pieces hide
+    # Small lone obstacles are floor, but a wall in pieces hides.
+    blocked = ~floor | sight_blockers(grid)
     rest = part_of(progress, ROOMS_SHARE, 1.0)
     regions = _nodes(rooms, blocked, resolution, config.convex, history, seed, rest)
     filled = ~grid.free
@@ -183,7 +181,7 @@ def _rooms(
                 "width_m": round(border.shape.length, 2),
                 "log_odds": round(odds, 2),
                 "accepted": True,
-                "reason": BETTER_APART[odds < 0],
+                "reason": UNLIKELY if odds < 0 else LIKELY,
             }
         )
     return np.asarray(rooms.parent[cells]), history

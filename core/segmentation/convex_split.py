@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 from scipy import ndimage, sparse
+from scipy.sparse import csgraph
 from scipy.sparse.linalg import eigsh
 
 from core.geometry import BoolArray, FloatArray, IntArray
@@ -168,13 +169,11 @@ def _second_eigenvector(weights: sparse.csr_array, area: FloatArray) -> FloatArr
 
 
 def _scaled_laplacian(weights: sparse.csr_array, scale: FloatArray) -> sparse.csc_array:
-    """S (D - W) S with S = diag(scale), put together at once: products of sparse matrices take as
-    long as the eigenvectors."""
-    coo, every = weights.tocoo(), np.arange(len(scale))
-    degree = np.asarray(weights.sum(axis=1)).ravel()
-    row, col = np.concatenate((coo.row, every)), np.concatenate((coo.col, every))
-    value = scale[row] * np.concatenate((-coo.data, degree)) * scale[col]
-    return sparse.csc_array(sparse.coo_array((value, (row, col)), shape=2 * scale.shape))
+    """S (D - W) S with S = diag(scale), entry by entry: products of sparse matrices take as long as
+    the eigenvectors."""
+    laplacian = csgraph.laplacian(weights).tocoo()
+    value = scale[laplacian.row] * laplacian.data * scale[laplacian.col]
+    return sparse.csc_array((value, (laplacian.row, laplacian.col)), shape=laplacian.shape)
 
 
 def _best_prefix(

@@ -36,10 +36,13 @@ class ConvexityConfig:
     factor: float = 0.3
     narrow_factor: float = 0.9
 
+    def is_narrow(self, border: float) -> bool:
+        """Whether a border as long as this is a narrow place."""
+        return self.narrow is not None and border <= self.narrow
+
     def factor_at(self, border: float) -> float:
         """The factor of the second condition at a border as long as this."""
-        is_narrow = self.narrow is not None and border <= self.narrow
-        return self.narrow_factor if is_narrow else self.factor
+        return self.narrow_factor if self.is_narrow(border) else self.factor
 
 
 PRINTED = ConvexityConfig("occupied", threshold=0.2, narrow=None, factor=0.5)

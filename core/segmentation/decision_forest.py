@@ -22,20 +22,19 @@ class DecisionForest:
     Attributes:
         root: (t,) knot at which each tree begins.
         feature: (k,) feature that a knot asks for, -1 at a leaf.
-        threshold: (k,) up to which one goes on to the next knot, beyond to `high`; the answer at a
-            leaf.
-        high: (k,) the other way on.
+        threshold: (k,) up to which one goes on to the next knot; the answer at a leaf.
+        ahead: (k,) by how many knots one goes on beyond it.
     """
 
     root: AnyArray
     feature: AnyArray
     threshold: AnyArray
-    high: AnyArray
+    ahead: AnyArray
 
     def mean(self, features: FloatArray) -> FloatArray:
         """The trees' mean answer (n,) to features (n, f)."""
         asked = np.ascontiguousarray(features, float)
-        return np.asarray(_mean(asked, self.root, self.feature, self.threshold, self.high))
+        return np.asarray(_mean(asked, self.root, self.feature, self.threshold, self.ahead))
 
     def write(self, path: Path) -> None:
         """Stores the forest in a file of a few bytes a knot."""
@@ -44,9 +43,7 @@ class DecisionForest:
             root=self.root.astype(np.int32),
             feature=self.feature.astype(np.int8),
             threshold=self.threshold.astype(np.float32),
-            ahead=np.where(self.feature < 0, 0, self.high - np.arange(len(self.high))).astype(
-                np.int32
-            ),
+            ahead=self.ahead.astype(np.int32),
         )
 
 
@@ -57,23 +54,19 @@ def stored_forest(name: str) -> DecisionForest:
         as_file(files("core.segmentation").joinpath(name)) as path,
         np.load(path, allow_pickle=False) as stored,
     ):
-        ahead = stored["ahead"]
-        return DecisionForest(
-            stored["root"],
-            stored["feature"],
-            stored["threshold"],
-            ahead + np.arange(len(ahead), dtype=ahead.dtype),
-        )
+        return DecisionForest(*(stored[name] for name in ("root", "feature", "threshold", "ahead")))
 
 
 @numba.njit(cache=True)
-def _mean(features, root, feature, threshold, high):  # type: ignore[no-untyped-def]
+def _mean(
+    features: FloatArray, root: AnyArray, feature: AnyArray, threshold: AnyArray, ahead: AnyArray
+) -> FloatArray:
     out = np.zeros(len(features))
     for first in root:  # all rows through one tree while it is in the cache
         for i in range(len(features)):
             knot = first
             while feature[knot] >= 0:
                 low = features[i, feature[knot]] <= threshold[knot]
-                knot = knot + 1 if low else high[knot]
+                knot += 1 if low else ahead[knot]
             out[i] += threshold[knot]
     return out / len(root)

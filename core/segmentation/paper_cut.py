@@ -48,7 +48,7 @@ def _reason(one: float, two: float, border: float, config: ConvexityConfig) -> s
     if one <= config.threshold:
         return f"convex enough: C1 = {one:.2f} is not above c_t = {config.threshold:g}"
     factor = config.factor_at(border)
-    place = "at a narrow place " if factor == config.narrow_factor else ""
+    place = "at a narrow place " if config.is_narrow(border) else ""
     if two >= factor * one:
         return f"the cut gains too little: {place}C2 = {two:.2f} is not below {factor * one:.2f}"
     return (

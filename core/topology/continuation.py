@@ -29,8 +29,8 @@ SAME_DOORWAY = 0.5
 def going_on(model: Model, earlier: Model) -> Model:
     """A model that was made again, with the ids, numbers, names and rooms of the earlier one."""
     topology = continued(model.topology, model.regions, model.grid.geometry, earlier)
-    rooms = room_image(model.regions, topology)
-    return renumbered(replace(model, rooms=rooms, topology=topology), earlier.topology)
+    model = renumbered(replace(model, topology=topology), earlier.topology)
+    return replace(model, rooms=room_image(model.regions, model.topology))
 
 
 def continued(

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from core.topology.labels import room_image, with_rooms
+from core.topology.labels import with_rooms
 from core.topology.model import Model
 from core.topology.topological_map import TopologicalMap
 
@@ -25,7 +25,7 @@ NAMED = re.compile(r"\bregion (\d+)")
 def renumbered(model: Model, earlier: TopologicalMap) -> Model:
     """A model whose nodes already have the ids of an earlier one, with its numbers of regions, too.
 
-    Where no node goes on, nothing changes.
+    Where no node goes on, nothing changes. The image of the rooms stays to be made.
     """
     numbers = _numbers(model, earlier)
     if all(value == number for value, number in numbers.items()):
@@ -41,7 +41,6 @@ def renumbered(model: Model, earlier: TopologicalMap) -> Model:
     return replace(
         model,
         regions=regions,
-        rooms=room_image(regions, topology),
         topology=topology,
         history=tuple(_retold(entry, numbers) for entry in model.history),
     )

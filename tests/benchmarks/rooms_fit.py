@@ -69,18 +69,19 @@ def lesson_of(entry: MapOfRooms) -> Lesson:
 
 def forest_of(fitted: Any) -> DecisionForest:
     """The trees of a fitted forest, rounded as they are stored."""
-    parts: dict[str, list[float]] = {k: [] for k in ("root", "feature", "threshold", "high")}
+    parts: dict[str, list[float]] = {k: [] for k in ("root", "feature", "threshold", "ahead")}
     for tree in (estimator.tree_ for estimator in fitted.estimators_):
-        start, leaf = len(parts["high"]), tree.children_left < 0
-        assert (tree.children_left[~leaf] == np.flatnonzero(~leaf) + 1).all()
+        start, leaf = len(parts["feature"]), tree.children_left < 0
+        knot = np.arange(len(leaf))
+        assert (tree.children_left[~leaf] == knot[~leaf] + 1).all()
         answer = tree.value[:, 0, :]
         answer = answer[:, 1] / answer.sum(axis=1) if answer.shape[1] == 2 else answer[:, 0]
         parts["root"].append(start)
         parts["feature"] += np.where(leaf, -1, tree.feature).tolist()
         parts["threshold"] += np.where(leaf, answer, tree.threshold).astype(np.float32).tolist()
-        parts["high"] += np.where(leaf, 0, tree.children_right + start).tolist()
+        parts["ahead"] += np.where(leaf, 0, tree.children_right - knot).tolist()
     whole = {k: np.array(v, float if k == "threshold" else np.int64) for k, v in parts.items()}
-    return DecisionForest(whole["root"], whole["feature"], whole["threshold"], whole["high"])
+    return DecisionForest(**whole)
 
 
 def fitted(trees: Any, samples: list[Samples], lessons: list[Lesson]) -> DecisionForest:
@@ -212,7 +213,7 @@ def main() -> None:
     ):
         path = Path(module.__file__).with_name(module.STORED)
         forest.write(path)
-        sys.stdout.write(f"{len(forest.high)} knots -> {path.name}\n")
+        sys.stdout.write(f"{len(forest.feature)} knots -> {path.name}\n")
     mean = np.mean([told("held back", m, quality(m, judges)) for m in held_back])
     sys.stdout.write(f"{SONAR:16s} pq {mean:.3f}\n")
 

@@ -12,7 +12,7 @@ def forest():
         root=np.array([0, 3]),
         feature=np.array([0, -1, -1, -1]),
         threshold=np.array([0.5, 0.25, 0.75, 1.0]),
-        high=np.array([2, 0, 0, 0]),
+        ahead=np.array([2, 0, 0, 0]),
     )
 
 

@@ -1,4 +1,5 @@
-"""How many readings stand behind a free cell: one echo may be false, two seldom agree on an error."""
+"""Which readings call a cell empty: how loudly, and how many of them. One echo may be false, two
+seldom agree on an error."""
 
 from __future__ import annotations
 
@@ -9,12 +10,13 @@ from core.mapping.beam_footprint import cells_of_beam
 
 
 @numba.njit(cache=True)
-def witnesses_of(alive, clearance, pose, ranges, sonar, half, gain, frame, shape, capacity):  # type: ignore[no-untyped-def]
-    """Number of the living readings (M,) that call each cell (flat) empty.
+def empty_evidence(alive, clearance, pose, ranges, sonar, half, gain, frame, shape, capacity):  # type: ignore[no-untyped-def]
+    """Maximum pressure and number (both flat) of the living readings (M,) that call each cell empty.
 
     A reading speaks of the cells of its sector up to `clearance` metres before its echo; the other
     arguments are those of `cells_of_beam`, by reading and by sonar.
     """
+    loudest = np.zeros(shape[0] * shape[1])
     count = np.zeros(shape[0] * shape[1], np.int64)
     cells = np.empty(capacity, np.int64)
     distance, pressure = np.empty(capacity), np.empty(capacity)
@@ -26,4 +28,5 @@ def witnesses_of(alive, clearance, pose, ranges, sonar, half, gain, frame, shape
         n = cells_of_beam(pose[i], reach, half[s], gain[s], frame, shape, cells, distance, pressure)
         for k in range(n):
             count[cells[k]] += 1
-    return count
+            loudest[cells[k]] = max(loudest[cells[k]], pressure[k])
+    return loudest, count
